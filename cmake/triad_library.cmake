@@ -1,0 +1,16 @@
+# triad_library(NAME [WALLS lib...] [EXTERNAL lib...])
+# One folder, one static library triad_NAME. WALLS are the Triad libraries below it: headers of those may appear in its
+# own headers, so they are PUBLIC; EXTERNAL packages stay PRIVATE, so that no other folder can include them by accident.
+function(triad_library name)
+  cmake_parse_arguments(arg "" "" "WALLS;EXTERNAL" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    add_library(triad_${name} STATIC ${sources})
+    target_link_libraries(triad_${name} PUBLIC triad_options ${arg_WALLS} PRIVATE ${arg_EXTERNAL})
+    target_include_directories(triad_${name} PUBLIC ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR})
+  else()
+    add_library(triad_${name} INTERFACE)
+    target_link_libraries(triad_${name} INTERFACE triad_options ${arg_WALLS})
+    target_include_directories(triad_${name} INTERFACE ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR})
+  endif()
+endfunction()

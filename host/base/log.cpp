@@ -1,0 +1,41 @@
+#include "base/log.h"
+
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <set>
+
+namespace triad {
+namespace {
+
+std::atomic<int> level{1};
+std::mutex mutex;
+
+void print(const char* prefix, const std::string& text) {
+    std::lock_guard lock(mutex);
+    std::fprintf(stderr, "%s%s\n", prefix, text.c_str());
+}
+
+}  // namespace
+
+void set_log_level(int value) { level = value; }
+int log_level() { return level; }
+
+void warn(const std::string& sentence) {
+    static std::set<std::string> seen;
+    {
+        std::lock_guard lock(mutex);
+        if (!seen.insert(sentence).second) return;
+    }
+    if (level >= 1) print("triad: warning: ", sentence);
+}
+
+void inform(const std::string& sentence) {
+    if (level >= 1) print("", sentence);
+}
+
+void detail(const std::string& sentence) {
+    if (level >= 2) print("", sentence);
+}
+
+}  // namespace triad

@@ -1,0 +1,192 @@
+#pragma once
+/// OpenCL behind a wall: this folder alone includes CL/*. A Device is one OpenCL device with an in-order queue.
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+
+namespace triad {
+
+/// What `triad devices` shows. Zero is a legal answer for every number.
+struct DeviceInfo {
+    std::size_t index = 0;  ///< over all platforms; stable while nothing is plugged in or out
+    std::string name, vendor, platform, version, c_version, driver;
+    std::string type;  ///< "cpu", "gpu", "accelerator", "other"
+    std::uint64_t memory = 0, max_allocation = 0, local_memory = 0;
+    unsigned compute_units = 0, clock_mhz = 0;
+    std::size_t max_work_group = 0;
+    bool fp64 = false, images = false, correctly_rounded = false, denormals = false, int64_atomics = false;
+    bool usable = false;
+    bool preferred = false;       ///< what Triad chooses without --device
+    std::string why_unusable;     ///< a sentence; empty when usable
+};
+
+/// A platform that offers nothing, and why; for `triad devices`.
+struct PlatformProblem {
+    std::string platform, why;
+};
+
+struct DeviceList {
+    std::vector<DeviceInfo> devices;
+    std::vector<PlatformProblem> problems;
+};
+
+/// Every device of every platform. Never throws for a broken one: it is listed as unusable, or as a problem.
+DeviceList list_devices();
+
+/// An error of the OpenCL layer: exit code 5 (4 when memory ran out). what() has the call, the code by name and number,
+/// device, driver, program, kernel, build options and the whole build log, as far as they apply.
+class DeviceError : public Error {
+  public:
+    DeviceError(Exit exit, int code, const std::string& sentence) : Error(exit, sentence), code_(code) {}
+    int code() const { return code_; }
+
+  private:
+    int code_;
+};
+
+/// Memory on a device. Movable; freed with the last owner.
+class Buffer {
+  public:
+    Buffer() = default;
+    std::size_t bytes() const { return bytes_; }
+    explicit operator bool() const { return handle_ != nullptr; }
+
+  private:
+    friend class Device;
+    friend class Arguments;
+    std::shared_ptr<void> handle_;
+    std::size_t bytes_ = 0;
+};
+
+/// The arguments of a kernel in order; a Buffer that was never allocated is passed as a null pointer.
+class Arguments {
+  public:
+    Arguments& add(const Buffer& buffer);
+    template <class T>
+        requires(std::is_arithmetic_v<T>)
+    Arguments& add(T value) {
+        return add_bytes(&value, sizeof value);
+    }
+    Arguments& add(const Arguments& others);
+
+  private:
+    friend class Device;
+    struct Value {
+        std::shared_ptr<void> buffer;
+        bool is_buffer;
+        std::vector<std::byte> bytes;
+    };
+    Arguments& add_bytes(const void* data, std::size_t size);
+    std::vector<Value> values_;
+};
+
+/// "-D NAME=VALUE" for a program; ordered, so that equal options give equal cache keys.
+using Options = std::map<std::string, std::string>;
+
+class Kernel {
+  public:
+    Kernel() = default;
+    const std::string& name() const { return name_; }
+
+  private:
+    friend class Device;
+    friend class Program;
+    std::shared_ptr<void> handle_;
+    std::string name_;
+};
+
+class Program {
+  public:
+    /// Throws DeviceError naming the program when it has no such kernel.
+    Kernel kernel(const std::string& name) const;
+
+  private:
+    friend class Device;
+    std::shared_ptr<void> handle_;
+    std::string path_, device_;
+};
+
+/// Times of one kernel, from profiling events, in seconds.
+struct KernelTime {
+    std::size_t launches = 0;
+    double seconds = 0;
+};
+
+/// Kernel source: the files of kernels/, embedded in the binary, or read from a folder when one is set (--kernels DIR).
+namespace kernel_source {
+void set_folder(const std::filesystem::path& folder);
+/// "traversal/intersect.cl" with its #includes flattened (each file once) and #line marks, so that logs name our files.
+std::string load(const std::string& path);
+/// Every .cl file, by path.
+std::vector<std::string> programs();
+/// Name of the content of all files; part of cache keys and of a device's verdict.
+std::string hash();
+}  // namespace kernel_source
+
+class Device {
+  public:
+    struct Settings {
+        std::string selector;    ///< "", index, "cpu"/"gpu", or part of the name or platform (case ignored)
+        unsigned threads = 0;    ///< CPU devices: compute units to use (0 = all)
+        bool profile = false;    ///< profiling queue; see times()
+    };
+
+    /// Throws Error(usage) for a selector that matches nothing usable (the sentence lists what there is), Error(device)
+    /// when there is no OpenCL device at all.
+    static Device open(const Settings& settings);
+
+    const DeviceInfo& info() const;
+
+    /// Uninitialised when `data` is null. Throws DeviceError(memory) that says how much was asked and how much there is.
+    Buffer allocate(std::size_t bytes, const void* data = nullptr);
+    template <class T>
+    Buffer upload(std::span<const T> values) {
+        return values.empty() ? Buffer{} : allocate(values.size_bytes(), values.data());
+    }
+    template <class T>
+    Buffer upload(const std::vector<T>& values) {
+        return upload(std::span<const T>(values));
+    }
+    void write(const Buffer& buffer, const void* data, std::size_t bytes, std::size_t offset = 0);
+    void read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);
+    template <class T>
+    std::vector<T> download(const Buffer& buffer) {
+        std::vector<T> values(buffer.bytes() / sizeof(T));
+        read(buffer, values.data(), values.size() * sizeof(T));
+        return values;
+    }
+    void fill_zero(const Buffer& buffer);
+
+    /// Compiles `kernels/<path>` with these options and the flags of docs/kernels.md; cached within the process, and on
+    /// disk where the driver has no cache of its own. `source` overrides the text (tests).
+    Program build(const std::string& path, const Options& options = {});
+    Program build_source(const std::string& name, const std::string& source, const Options& options = {});
+
+    /// Enqueues `items` work-items (rounded up to a multiple of `local`: kernels guard). local 0 = preferred_local().
+    void run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local = 0);
+    void finish();
+
+    /// Work-group size that was measured best on this device and driver for divergent kernels (64 until tuned).
+    std::size_t preferred_local() const;
+    void set_preferred_local(std::size_t local);
+
+    double compile_seconds() const;  ///< spent in build() so far
+    std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
+
+  private:
+    struct State;
+    explicit Device(std::shared_ptr<State> state);
+    std::shared_ptr<State> state_;
+};
+
+}  // namespace triad

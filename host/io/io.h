@@ -1,0 +1,69 @@
+#pragma once
+/// Files in and out. The only folder that includes tinygltf or OpenImageIO.
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace triad {
+
+struct GltfChoice {
+    int scene = -1;  ///< -1: the file's default scene, else scene 0
+};
+
+/// What a file contained beside the scene, for `triad info` and for warnings.
+struct GltfReport {
+    std::vector<std::string> extensions_used, extensions_required, warnings;
+    std::size_t nodes = 0, scenes = 0;
+};
+
+/// Reads .gltf or .glb, following the hard rules for untrusted files. Throws Error(scene) that names the object at
+/// fault, Error(unsupported) that names a required extension. Warnings are returned, not printed.
+Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice = {}, GltfReport* report = nullptr);
+
+/// .hdr or .exr, lat-long. Throws Error(scene).
+EnvironmentMap load_environment(const std::filesystem::path& path);
+
+/// Decodes PNG, JPEG or WebP bytes to RGBA (colour profiles ignored, alpha unassociated). `name` is for messages.
+/// Throws Error(scene).
+Image decode_image(const std::string& name, const std::vector<std::uint8_t>& bytes);
+
+/// A named float channel plane of a picture, row-major.
+struct Channel {
+    std::string name;  ///< "R", "G", "B", "A", "albedo.R", "normal.X", "depth.Z" ...
+    std::vector<float> values;
+};
+
+using Metadata = std::map<std::string, std::string>;
+
+/// A linear (or display-linear) picture with any channels.
+struct Picture {
+    unsigned width = 0, height = 0;            ///< of the data
+    unsigned x = 0, y = 0;                     ///< where the data lie in the full picture
+    unsigned full_width = 0, full_height = 0;  ///< 0: as the data
+    std::vector<Channel> channels;
+    Metadata metadata;
+    const Channel* find(const std::string& name) const;
+};
+
+/// EXR, float (or half: saturated at 65504, the number saturated is returned). Written aside and renamed.
+std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half = false);
+
+/// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits) to .png or .jpg by extension.
+struct EncodedPicture {
+    unsigned width = 0, height = 0, channels = 3, bits = 8;
+    std::vector<std::uint8_t> bytes;
+    Metadata metadata;
+};
+void write_encoded(const std::filesystem::path& path, const EncodedPicture& picture);
+
+/// Radiance .hdr of R, G, B.
+void write_hdr(const std::filesystem::path& path, const Picture& picture);
+
+/// Reads EXR, PNG, JPEG or HDR as float channels; integer formats are scaled to [0, 1] and stay encoded.
+Picture read_picture(const std::filesystem::path& path);
+
+}  // namespace triad

@@ -1,0 +1,46 @@
+/* The list of compile-time options: what a program can leave out. Everything is on by default; the program with
+ * everything on renders every scene, and a specialised one gives the same bits. */
+#ifndef TRIAD_FEATURES_H
+#define TRIAD_FEATURES_H
+
+#ifndef TRIAD_INSTANCES /* a second level of trees: some mesh is placed by instances instead of being flattened */
+#define TRIAD_INSTANCES 1
+#endif
+#ifndef TRIAD_ALPHA_TEST /* some material has alphaMode MASK or BLEND: rays test coverage at every candidate hit */
+#define TRIAD_ALPHA_TEST 1
+#endif
+#ifndef TRIAD_TEXTURES /* some material uses a texture */
+#define TRIAD_TEXTURES 1
+#endif
+#ifndef TRIAD_NORMAL_MAPS /* some material has a normal map (needs TRIAD_TEXTURES) */
+#define TRIAD_NORMAL_MAPS 1
+#endif
+#ifndef TRIAD_VERTEX_COLOURS /* some geometry has COLOR_0 */
+#define TRIAD_VERTEX_COLOURS 1
+#endif
+#ifndef TRIAD_SPECULAR /* some material reflects other than by Lambert's law */
+#define TRIAD_SPECULAR 1
+#endif
+#ifndef TRIAD_TRANSMISSION /* some material transmits */
+#define TRIAD_TRANSMISSION 1
+#endif
+#ifndef TRIAD_UNLIT /* some material is KHR_materials_unlit */
+#define TRIAD_UNLIT 1
+#endif
+#ifndef TRIAD_TRIANGLE_LIGHTS /* some triangle emits */
+#define TRIAD_TRIANGLE_LIGHTS 1
+#endif
+#ifndef TRIAD_PUNCTUAL_LIGHTS /* there is a point, spot or directional light */
+#define TRIAD_PUNCTUAL_LIGHTS 1
+#endif
+#ifndef TRIAD_ENVIRONMENT_MAP /* the environment is a map (else one colour, possibly black) */
+#define TRIAD_ENVIRONMENT_MAP 1
+#endif
+#ifndef TRIAD_LENS /* the camera has an aperture */
+#define TRIAD_LENS 1
+#endif
+#ifndef TRIAD_BINS /* the film has more than one bin per pixel */
+#define TRIAD_BINS 1
+#endif
+
+#endif

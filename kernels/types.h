@@ -1,0 +1,271 @@
+/* The border: every struct and constant that host and device share. C++ and OpenCL C read this same file.
+ *
+ * Rules: 4-byte scalars and arrays of them only (no vector types, pointers, enums, bools), so that every compiler lays
+ * them out alike; sizes are asserted here on both sides, offsets by the device test `layout`.
+ * Units: lengths in scene units, rebased to the render origin unless said; radiance in W/(m^2 sr) per channel of linear
+ * Rec.709 (for glTF: nits); angles in radians.
+ */
+#ifndef TRIAD_TYPES_H
+#define TRIAD_TYPES_H
+
+#ifdef __OPENCL_C_VERSION__
+#define TRIAD_SIZE(type, bytes) typedef char type##_has_##bytes##_bytes[sizeof(type) == (bytes) ? 1 : -1]
+#else
+#include <cstdint>
+namespace triad::dev { /* the device side of the border: triad::Material is the scene's, triad::dev::Material the kernels' */
+using uint = std::uint32_t;
+#define TRIAD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " has " #bytes " bytes")
+#endif
+
+#define TRIAD_NONE 0xffffffffu /* no index: no texture, no attribute, no primitive */
+
+/* ---- Traversal ------------------------------------------------------------------------------------------------ */
+
+#define BVH_WIDTH 8
+#define BVH_EMPTY 0xffffffffu    /* child slot without a child; its box is inverted (lo = +inf, hi = -inf) */
+#define BVH_LEAF 0x80000000u     /* child = BVH_LEAF | index of a TriangleBlock */
+#define BVH_INSTANCE 0x40000000u /* child = BVH_INSTANCE | index of an Instance (top level only) */
+#define BVH_INDEX 0x3fffffffu    /* else: index of a BvhNode */
+#define BVH_STACK 96             /* entries of the traversal stack; the builder bounds the depth to it */
+
+/* Eight boxes in SoA: bounds[axis * 2] are the low, bounds[axis * 2 + 1] the high planes, padded at build so that the
+ * slab test in float misses nothing. Units of the space the tree lives in (world rebased, or object). */
+typedef struct BvhNode {
+    float bounds[6][BVH_WIDTH];
+    uint child[BVH_WIDTH];
+    uint unused[BVH_WIDTH];
+} BvhNode;
+TRIAD_SIZE(BvhNode, 256);
+
+/* Four triangles in SoA; a short block repeats its last triangle. vertex[corner * 3 + axis][lane]. `primitive` indexes
+ * the scene's Triangle array, over all meshes. */
+typedef struct TriangleBlock {
+    float vertex[9][4];
+    uint primitive[4];
+} TriangleBlock;
+TRIAD_SIZE(TriangleBlock, 160);
+
+/* A mesh placed in the world. Instance 0 is the world itself (identity): flattened geometry belongs to it.
+ * Matrices are 3x4, row-major, between object space and rebased world space. */
+typedef struct Instance {
+    float to_world[12];
+    float to_object[12];
+    uint root; /* node of the mesh's tree */
+    uint unused[7];
+} Instance;
+TRIAD_SIZE(Instance, 128);
+
+/* A ray and what it must not hit again: the triangle it leaves (TRIAD_NONE: none). t is measured in lengths of
+ * `direction`, which need not be normalised. */
+typedef struct Ray {
+    float origin[3];
+    float t_max;
+    float direction[3];
+    uint skip_instance;
+    uint skip_primitive;
+    uint unused[3];
+} Ray;
+TRIAD_SIZE(Ray, 48);
+
+/* Closest hit; primitive is TRIAD_NONE when there is none. u, v are the barycentric weights of corners 1 and 2.
+ * At equal t the lower (instance, primitive) wins on every device. */
+typedef struct Hit {
+    float t, u, v;
+    uint primitive;
+    uint instance;
+    uint unused[3];
+} Hit;
+TRIAD_SIZE(Hit, 32);
+
+/* ---- Geometry --------------------------------------------------------------------------------------------------- */
+
+/* Corner indices are relative to the geometry's attribute arrays. */
+typedef struct Triangle {
+    uint vertex[3];
+    uint geometry;
+} Triangle;
+TRIAD_SIZE(Triangle, 16);
+
+/* One glTF primitive. The attribute members are the index of its first vertex in that attribute's array, or
+ * TRIAD_NONE. Positions and directions of flattened geometry are in rebased world space, of instanced in object space. */
+typedef struct Geometry {
+    uint first_triangle;
+    uint material;
+    uint position;    /* float[3] per vertex */
+    uint normal;      /* float[3], unit; TRIAD_NONE: flat */
+    uint tangent;     /* float[4], w = handedness */
+    uint uv[2];       /* float[2] */
+    uint colour;      /* float[4], linear */
+    uint first_light; /* light of triangle first_triangle when the material emits (one light per triangle), else NONE */
+    uint unused[3];
+} Geometry;
+TRIAD_SIZE(Geometry, 48);
+
+/* ---- Textures and materials --------------------------------------------------------------------------------------- */
+
+#define TEXTURE_RGBA8 0u      /* one uint per texel, R in the low byte */
+#define TEXTURE_RGBA8_SRGB 1u /* the same, RGB decoded with the sRGB curve */
+#define TEXTURE_RGBA16 2u     /* two uints per texel, unsigned normalised */
+
+#define WRAP_REPEAT 0u
+#define WRAP_MIRROR 1u
+#define WRAP_CLAMP 2u
+
+/* One image with one sampler. Row 0 is the top row, (u, v) = (0, 0) its upper left corner, as in glTF. */
+typedef struct Texture {
+    uint width, height;
+    uint first_texel; /* index into the texel array, in uints */
+    uint format;
+    uint wrap_u, wrap_v;
+    uint linear; /* 1 bilinear, 0 nearest */
+    uint unused;
+} Texture;
+TRIAD_SIZE(Texture, 32);
+
+/* A use of a texture: which UV set, and KHR_texture_transform as u' = m[0] u + m[1] v + m[2], v' = m[3] u + ... */
+typedef struct TextureUse {
+    uint texture;
+    uint uv_set;
+    float m[6];
+} TextureUse;
+TRIAD_SIZE(TextureUse, 32);
+
+#define MATERIAL_DOUBLE_SIDED 1u /* emits on both sides */
+#define MATERIAL_ALPHA_MASK 2u
+#define MATERIAL_ALPHA_BLEND 4u
+#define MATERIAL_SOLID 8u /* KHR_materials_volume with thickness > 0: a closed body that refracts and absorbs */
+#define MATERIAL_UNLIT 16u
+
+/* glTF metallic-roughness with KHR ior, specular, transmission, volume, emissive_strength, unlit.
+ * The *_use members index the TextureUse array or are TRIAD_NONE. Factors multiply textures, as the extensions say. */
+typedef struct Material {
+    float base_colour[4];
+    float emission[3]; /* radiance, strength included */
+    float alpha_cutoff;
+    float metallic;
+    float roughness;
+    float ior; /* 0: Fresnel is 1 everywhere (KHR_materials_ior) */
+    float normal_scale;
+    float specular_colour[3];
+    float specular;
+    float absorption[3]; /* sigma_a of the body, per scene unit of the instance's world scale */
+    float transmission;
+    uint flags;
+    uint base_colour_use;
+    uint metallic_roughness_use;
+    uint normal_use;
+    uint emission_use;
+    uint specular_use;
+    uint specular_colour_use;
+    uint transmission_use;
+    uint unused[4];
+} Material;
+TRIAD_SIZE(Material, 128);
+
+/* ---- Lights --------------------------------------------------------------------------------------------------------- */
+
+#define LIGHT_TRIANGLE 0u
+#define LIGHT_POINT 1u
+#define LIGHT_SPOT 2u
+#define LIGHT_DIRECTIONAL 3u
+#define LIGHT_ENVIRONMENT 4u
+
+/* colour: radiance factor of a triangle (texture not included), intensity W/sr of point and spot, irradiance of
+ * directional. Emissive geometry is always flattened, so positions are in rebased world space. */
+typedef struct Light {
+    uint type;
+    uint primitive;   /* TRIANGLE: its Triangle */
+    float pick;       /* probability that light sampling picks this light */
+    float area;       /* TRIANGLE */
+    float position[3]; /* corner 0, or the position */
+    float range;      /* punctual; 0 = no limit */
+    float edge1[3];   /* TRIANGLE: corner 1 - corner 0; SPOT, DIRECTIONAL: unit direction of emission */
+    float cone_scale; /* SPOT: attenuation = clamp(cos * scale + offset, 0, 1)^2 */
+    float edge2[3];   /* TRIANGLE: corner 2 - corner 0 */
+    float cone_offset;
+    float colour[3];
+    uint flags; /* MATERIAL_DOUBLE_SIDED of the triangle's material */
+} Light;
+TRIAD_SIZE(Light, 80);
+
+/* The environment: radiance = strength * texel, bilinear. World y is up before the rotation about it.
+ * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere. */
+typedef struct Environment {
+    uint width, height;
+    uint light; /* its Light, or TRIAD_NONE when it emits nothing */
+    float strength;
+    float rotate_cos, rotate_sin; /* map direction = (c x + s z, y, -s x + c z) of world direction */
+    float unused[2];
+    float colour[4]; /* used when width is 0 */
+} Environment;
+TRIAD_SIZE(Environment, 48);
+
+/* ---- Camera and film -------------------------------------------------------------------------------------------------- */
+
+#define CAMERA_PERSPECTIVE 0u
+#define CAMERA_ORTHOGRAPHIC 1u
+
+/* right, up, forward are unit and orthogonal. Image plane: x right, y down, in pixels of the full picture. The ray of
+ * film position (x, y) passes forward + right * (x / width * 2 - 1) * extent[0] - up * (y / height * 2 - 1) * extent[1]. */
+typedef struct Camera {
+    float origin[3];
+    float lens_radius;
+    float right[3];
+    float focus_distance;
+    float up[3];
+    uint projection;
+    float forward[3];
+    uint unused;
+    float extent[2]; /* half width and half height of the image plane at distance 1 (orthographic: in scene units) */
+    float pixels[2]; /* width and height of the full picture */
+} Camera;
+TRIAD_SIZE(Camera, 80);
+
+#define BACKGROUND_ENVIRONMENT 0u
+#define BACKGROUND_TRANSPARENT 1u
+#define BACKGROUND_COLOUR 2u
+
+/* Everything of one picture that does not change between launches. */
+typedef struct Frame {
+    Camera camera;
+    Environment environment;
+    uint crop[4]; /* x, y, width, height in pixels of the full picture; the film covers the crop only */
+    uint bins[2]; /* bins per pixel in x and y */
+    uint seed;
+    uint max_depth; /* edges; 0 = no limit */
+    uint background;
+    float background_colour[3];
+    uint light_count;
+    float quanta;   /* fixed-point units per unit of radiance: a power of two */
+    uint albedo_resolution; /* side of the albedo tables */
+    float unused;
+} Frame;
+TRIAD_SIZE(Frame, 192);
+
+/* One launch: pixels [first_pixel, first_pixel + pixel_count) of the crop in tile order, samples [first_sample,
+ * first_sample + sample_count) of each. Sample s of a pixel falls into bin (s % bins) (permuted), half (s / bins) & 1. */
+typedef struct Launch {
+    uint first_pixel;
+    uint pixel_count;
+    uint first_sample;
+    uint sample_count;
+    uint first_sample_high; /* upper 32 bits of the 64-bit sample index */
+    uint unused[3];
+} Launch;
+TRIAD_SIZE(Launch, 32);
+
+/* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
+#define FILM_CHANNELS 4
+
+/* Counters, as pairs of uints (low, high): what happened, over all launches. Index = 2 * COUNTER_x. */
+#define COUNTER_RAYS 0        /* closest-hit and occlusion rays */
+#define COUNTER_NOT_FINITE 1  /* samples dropped for a NaN or an infinity */
+#define COUNTER_SATURATED 2   /* samples that did not fit the fixed point */
+#define COUNTER_TRUNCATED 3   /* paths cut by max_depth */
+#define COUNTER_CUT_ENERGY 4  /* sum of their throughput (luminance), in 1/65536 */
+#define COUNTERS 5
+
+#ifndef __OPENCL_C_VERSION__
+}  // namespace triad::dev
+#endif
+#endif
