@@ -221,10 +221,6 @@ typedef struct Camera {
 } Camera;
 TRIAD_SIZE(Camera, 80);
 
-#define BACKGROUND_ENVIRONMENT 0u
-#define BACKGROUND_TRANSPARENT 1u
-#define BACKGROUND_COLOUR 2u
-
 /* Everything of one picture that does not change between launches. */
 typedef struct Frame {
     Camera camera;
@@ -233,12 +229,12 @@ typedef struct Frame {
     uint bins[2]; /* bins per pixel in x and y */
     uint seed;
     uint max_depth; /* edges; 0 = no limit */
-    uint background;
-    float background_colour[3];
+    uint transparent; /* 1: the camera does not see the environment; alpha is 0 there */
     uint light_count;
-    float quanta;   /* fixed-point units per unit of radiance: a power of two */
-    uint albedo_resolution; /* side of the albedo tables */
-    float unused;
+    float quanta; /* fixed-point units per unit of radiance: a power of two */
+    uint root;    /* node of the world's tree */
+    float feature_quanta[2]; /* the same for positions and depths: a power of two and its inverse */
+    uint unused[2];
 } Frame;
 TRIAD_SIZE(Frame, 192);
 

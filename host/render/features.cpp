@@ -1,0 +1,81 @@
+#include "render/features.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace triad {
+namespace {
+
+/// The one list that ties members to option names.
+constexpr std::pair<const char*, bool Features::*> table[] = {
+    {"INSTANCES", &Features::instances},
+    {"ALPHA_TEST", &Features::alpha_test},
+    {"TEXTURES", &Features::textures},
+    {"NORMAL_MAPS", &Features::normal_maps},
+    {"VERTEX_COLOURS", &Features::vertex_colours},
+    {"SPECULAR", &Features::specular},
+    {"TRANSMISSION", &Features::transmission},
+    {"UNLIT", &Features::unlit},
+    {"TRIANGLE_LIGHTS", &Features::triangle_lights},
+    {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
+    {"ENVIRONMENT_MAP", &Features::environment_map},
+    {"LENS", &Features::lens},
+    {"BINS", &Features::bins},
+};
+
+bool textured(const Material& m) {
+    return m.base_colour_texture || m.metallic_roughness_texture || m.normal_texture || m.emission_texture ||
+           m.specular_texture || m.specular_colour_texture || m.transmission_texture;
+}
+
+}  // namespace
+
+Features features_of(const Scene& scene, const RenderSettings& settings, bool instances) {
+    std::vector<bool> used(scene.materials.size());
+    Features f;
+    f.vertex_colours = false;
+    for (const MeshInstance& i : scene.instances)
+        for (const Primitive& p : scene.meshes[i.mesh].primitives) {
+            used[p.material] = true;
+            f.vertex_colours |= !p.colours.empty();
+        }
+    auto any = [&](auto&& fact) {
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (used[i] && fact(scene.materials[i])) return true;
+        return false;
+    };
+    f.instances = instances;
+    f.alpha_test = any([](const Material& m) { return m.alpha_mode != AlphaMode::opaque; });
+    f.textures = any(textured);
+    f.normal_maps = any([](const Material& m) { return m.normal_texture.has_value(); });
+    f.specular =
+        any([](const Material& m) { return m.specular > 0 || m.metallic > 0 || m.transmission > 0; });
+    f.transmission = any([](const Material& m) { return m.transmission > 0; });
+    f.unlit = any([](const Material& m) { return m.unlit; });
+    f.triangle_lights = any([](const Material& m) { return m.emission != vec3(0.0f); });
+    f.punctual_lights = !scene.lights.empty();
+    f.environment_map = scene.environment.has_value();
+    f.lens = settings.view.lens_radius > 0;
+    f.bins = settings.bins_x * settings.bins_y > 1;
+    return f;
+}
+
+Options options_of(const Features& features) {
+    Options options;
+    for (auto [name, member] : table) options[std::string("TRIAD_") + name] = features.*member ? "1" : "0";
+    return options;
+}
+
+std::vector<std::string> left_out(const Features& features) {
+    std::vector<std::string> names;
+    for (auto [name, member] : table)
+        if (!(features.*member)) {
+            std::string words = name;
+            std::transform(words.begin(), words.end(), words.begin(),
+                           [](char c) { return c == '_' ? ' ' : char(std::tolower(c)); });
+            names.push_back(words);
+        }
+    return names;
+}
+
+}  // namespace triad

@@ -1,0 +1,29 @@
+#pragma once
+/// "Model only what a scene needs": observable facts of a scene that become compile-time options of the
+/// kernels.
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace triad {
+
+/// One member per option of kernels/features.h, same sentence.
+struct Features {
+    bool instances = true, alpha_test = true, textures = true, normal_maps = true, vertex_colours = true;
+    bool specular = true, transmission = true, unlit = true;
+    bool triangle_lights = true, punctual_lights = true, environment_map = true, lens = true, bins = true;
+};
+
+/// `instances` is what the packing decided, the rest is read off the scene.
+Features features_of(const Scene& scene, const RenderSettings& settings, bool instances);
+
+/// "-D TRIAD_...=0|1".
+Options options_of(const Features& features);
+
+/// Names of what was left out, for -v and JSON.
+std::vector<std::string> left_out(const Features& features);
+
+}  // namespace triad

@@ -1,0 +1,23 @@
+#pragma once
+/// What decides a picture, beside the scene.
+#include <array>
+#include <cstdint>
+
+#include "scene/view.h"
+
+namespace triad {
+
+struct RenderSettings {
+    unsigned width = 1280, height = 720;
+    std::array<unsigned, 4> crop{};   ///< x, y, width, height; width 0: the whole picture
+    unsigned bins_x = 1, bins_y = 1;  ///< bins per pixel
+    std::uint32_t seed = 0;
+    unsigned max_depth = 0;  ///< edges of a path; 0: no limit, Russian roulette ends it
+    bool transparent =
+        false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
+    View view;
+    double environment_rotation = 0.0;  ///< radians about +y
+    double environment_strength = 1.0;
+};
+
+}  // namespace triad
