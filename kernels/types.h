@@ -26,7 +26,9 @@ using uint = std::uint32_t;
 #define BVH_LEAF 0x80000000u     /* child = BVH_LEAF | index of a TriangleBlock */
 #define BVH_INSTANCE 0x40000000u /* child = BVH_INSTANCE | index of an Instance (top level only) */
 #define BVH_INDEX 0x3fffffffu    /* else: index of a BvhNode */
-#define BVH_STACK 96             /* entries of the traversal stack; the builder bounds the depth to it */
+#define BVH_ALPHA 0x40000000u    /* of a BVH_LEAF: some triangle of the block is not opaque, coverage must be asked */
+#define BVH_DEPTH 9              /* levels of nodes in one tree at most; the builder keeps to it */
+#define BVH_STACK 128            /* entries of the traversal stack: BVH_DEPTH * 7 + 1 for each of two levels of trees */
 
 /* Eight boxes in SoA: bounds[axis * 2] are the low, bounds[axis * 2 + 1] the high planes, padded at build so that the
  * slab test in float misses nothing. Units of the space the tree lives in (world rebased, or object). */

@@ -19,6 +19,7 @@ struct BvhPool {
 struct BvhTriangle {
     vec3 corner[3];
     std::uint32_t primitive;
+    bool opaque = false;  ///< true: rays that hit it never ask for its coverage (alpha)
 };
 
 /// A box of the top level that stands for an instance.

@@ -1,0 +1,233 @@
+/* Rays against the eight-wide tree: closest hit and occlusion.
+ *
+ * Every lane of the node test belongs to one ray (eight boxes at once): on a CPU that is where the vector
+ * units are, and drivers that vectorise across work-items run it with local size 1 (measured per device, see
+ * docs/performance.md). The slab test is one fma per plane over boxes that the builder padded for its
+ * rounding (host/bvh/bvh.h), so that a box is never missed whose triangle is hit, and a box's entry is never
+ * beyond the t of a triangle inside: results do not depend on the order of visits.
+ *
+ * A program that tests coverage (alpha) defines, before it includes this header,
+ *   TRAVERSAL_CONTEXT                                             the type of Traversal.context
+ *   TRAVERSAL_ACCEPT(context, instance, primitive, u, v)          0: the ray passes through
+ * and the second is called for every candidate that would become the hit, in blocks whose leaf has BVH_ALPHA.
+ */
+#ifndef TRIAD_TRAVERSAL_TRAVERSE_H
+#define TRIAD_TRAVERSAL_TRAVERSE_H
+#include "common/language.h"
+#include "traversal/triangle.h"
+
+#define TRAVERSAL_TESTS_ALPHA 0
+#ifdef TRAVERSAL_ACCEPT
+#undef TRAVERSAL_TESTS_ALPHA
+#define TRAVERSAL_TESTS_ALPHA TRIAD_ALPHA_TEST
+#endif
+
+/* What rays are traced against. Pass it by pointer: it dissolves when inlined. */
+typedef struct Traversal {
+    global const BvhNode* nodes;
+    global const TriangleBlock* blocks;
+    global const Instance* instances; /* read only where a leaf has BVH_INSTANCE */
+    uint root;
+#ifdef TRAVERSAL_CONTEXT
+    TRAVERSAL_CONTEXT context;
+#endif
+} Traversal;
+
+/* What the slab test needs of a ray, once per ray and space. t of a plane at b is fma(b, inverse, -origin *
+ * inverse). */
+typedef struct SlabRay {
+    float inverse[3];
+    float offset[3];  /* -origin * inverse */
+    uint near_row[3]; /* first float of the row of BvhNode.bounds that the ray meets first; the other one is ^
+                         8 */
+} SlabRay;
+
+TRIAD_FUNCTION SlabRay slab_ray(const float origin[3], const float direction[3]) {
+    /* A component of zero becomes 2^-40 of the largest: finite, so that no plane yields 0 * inf, far below
+     * the padding of the boxes, and relative, so that scaling by a power of two changes no bit. */
+    const float least = fmax(fmax(fabs(direction[0]), fabs(direction[1])), fabs(direction[2])) * 0x1p-40f;
+    SlabRay ray;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float inverse = 1.0f / copysign(fmax(fabs(direction[axis]), least), direction[axis]);
+        ray.inverse[axis] = inverse;
+        ray.offset[axis] = -origin[axis] * inverse;
+        ray.near_row[axis] = (uint)axis * 16u + (inverse < 0.0f ? 8u : 0u);
+    }
+    return ray;
+}
+
+/* Eight boxes: entry distances, and a byte of ones for each child that the ray meets within [0, t_max]. */
+TRIAD_FUNCTION ulong slab_intersect(global const BvhNode* node, const SlabRay* ray, float t_max,
+                                    float8* entry) {
+    global const float* bounds = &node->bounds[0][0];
+    const float8 ix = (float8)(ray->inverse[0]), iy = (float8)(ray->inverse[1]),
+                 iz = (float8)(ray->inverse[2]);
+    const float8 ox = (float8)(ray->offset[0]), oy = (float8)(ray->offset[1]), oz = (float8)(ray->offset[2]);
+    const float8 nx = fma(vload8(0, bounds + ray->near_row[0]), ix, ox);
+    const float8 ny = fma(vload8(0, bounds + ray->near_row[1]), iy, oy);
+    const float8 nz = fma(vload8(0, bounds + ray->near_row[2]), iz, oz);
+    const float8 fx = fma(vload8(0, bounds + (ray->near_row[0] ^ 8u)), ix, ox);
+    const float8 fy = fma(vload8(0, bounds + (ray->near_row[1] ^ 8u)), iy, oy);
+    const float8 fz = fma(vload8(0, bounds + (ray->near_row[2] ^ 8u)), iz, oz);
+    /* Ternaries, not fmin and fmax: no operand is NaN, and these are one instruction each. */
+    float8 tn = nx > ny ? nx : ny, tf = fx < fy ? fx : fy;
+    tn = tn > nz ? tn : nz;
+    tf = tf < fz ? tf : fz;
+    tn = tn > 0.0f ? tn : (float8)(0.0f);
+    tf = tf < t_max ? tf : (float8)(t_max);
+    *entry = tn;
+    return as_ulong(convert_char8(tn <= tf));
+}
+
+/* Takes the lowest child out of a mask of slab_intersect and returns its number. */
+TRIAD_FUNCTION uint slab_next(ulong* mask) {
+    const uint child = (uint)(63 - clz(*mask & (0 - *mask))) >> 3;
+    *mask &= ~(0xfful << (child * 8u));
+    return child;
+}
+
+#if TRIAD_INSTANCES
+TRIAD_FUNCTION void traversal_to_object(global const Instance* instance, const Ray* ray, float origin[3],
+                                        float direction[3]) {
+    global const float* m = instance->to_object;
+    for (int row = 0; row < 3; ++row, m += 4) {
+        origin[row] = fma(m[0], ray->origin[0], fma(m[1], ray->origin[1], fma(m[2], ray->origin[2], m[3])));
+        direction[row] = fma(m[0], ray->direction[0], fma(m[1], ray->direction[1], m[2] * ray->direction[2]));
+    }
+}
+#endif
+
+/* A candidate of a block against the best hit so far: nearer, or as near and of lower (instance, primitive).
+ */
+TRIAD_FUNCTION int traversal_is_better(const Hit* best, float t, uint instance, uint primitive) {
+    return t < best->t || (t == best->t && (instance < best->instance ||
+                                            (instance == best->instance && primitive < best->primitive)));
+}
+
+/* Tests the block of a leaf; with `any` returns 1 at the first hit, else updates `best` and returns 0. */
+TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const TriangleRay* ray,
+                                        uint instance, uint skip, Hit* best, const int any) {
+    global const TriangleBlock* block = scene->blocks + (leaf & BVH_INDEX);
+    TriangleHits hits;
+    uint mask = as_uint(convert_char4(triangle_intersect(block, ray, best->t, skip, &hits)));
+    if (mask == 0u) return 0;
+#if !TRAVERSAL_TESTS_ALPHA
+    if (any) return 1;
+#endif
+    float t[4], u[4], v[4];
+    vstore4(hits.t, 0, t);
+    vstore4(hits.u, 0, u);
+    vstore4(hits.v, 0, v);
+    do {
+        const uint lane = (31u - clz(mask & (0u - mask))) >> 3;
+        mask &= ~(0xffu << (lane * 8u));
+        const uint primitive = block->primitive[lane];
+        if (!any && !traversal_is_better(best, t[lane], instance, primitive)) continue;
+#if TRAVERSAL_TESTS_ALPHA
+        if ((leaf & BVH_ALPHA) && !TRAVERSAL_ACCEPT(scene->context, instance, primitive, u[lane], v[lane]))
+            continue;
+        if (any) return 1;
+#endif
+        best->t = t[lane];
+        best->u = u[lane];
+        best->v = v[lane];
+        best->primitive = primitive;
+        best->instance = instance;
+    } while (mask != 0u);
+    return 0;
+}
+
+/* The walk. `any` is a constant of the call: 1 stops at the first hit and returns 1, 0 leaves the closest in
+ * `best`. */
+TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* best, const int any) {
+    uint stack_child[BVH_STACK];
+    float stack_entry[BVH_STACK];
+    uint size = 0u;
+    uint child = scene->root;
+    uint instance = 0u;
+    uint skip = ray->skip_instance == 0u ? ray->skip_primitive : TRIAD_NONE;
+    SlabRay slab = slab_ray(ray->origin, ray->direction);
+    TriangleRay sheared = triangle_ray(ray->origin, ray->direction);
+#if TRIAD_INSTANCES
+    uint floor_of_instance = 0u; /* stack size at which the current instance is done */
+#endif
+    for (;;) {
+        if (child & BVH_LEAF) {
+            if (traversal_visit_leaf(scene, child, &sheared, instance, skip, best, any)) return 1;
+#if TRIAD_INSTANCES
+        } else if (child & BVH_INSTANCE) {
+            float origin[3], direction[3];
+            instance = child & BVH_INDEX;
+            traversal_to_object(scene->instances + instance, ray, origin, direction);
+            slab = slab_ray(origin, direction);
+            sheared = triangle_ray(origin, direction);
+            skip = ray->skip_instance == instance ? ray->skip_primitive : TRIAD_NONE;
+            floor_of_instance = size;
+            child = scene->instances[instance].root;
+            continue;
+#endif
+        } else {
+            global const BvhNode* node = scene->nodes + child;
+            float8 entries;
+            ulong mask = slab_intersect(node, &slab, best->t, &entries);
+            if (mask != 0ul) {
+                const uint first = slab_next(&mask);
+                child = node->child[first];
+                if (mask == 0ul) continue;
+                float entry[8];
+                vstore8(entries, 0, entry);
+                float nearest = entry[first];
+                do { /* the nearest child is walked next, the others wait */
+                    const uint next = slab_next(&mask);
+                    uint farther_child = node->child[next];
+                    float farther = entry[next];
+                    if (!any && farther < nearest) {
+                        const uint swap_child = child;
+                        const float swap = nearest;
+                        child = farther_child;
+                        nearest = farther;
+                        farther_child = swap_child;
+                        farther = swap;
+                    }
+                    stack_child[size] = farther_child;
+                    stack_entry[size++] = farther;
+                } while (mask != 0ul);
+                continue;
+            }
+        }
+        do { /* the next child that starts before the best hit */
+#if TRIAD_INSTANCES
+            if (size == floor_of_instance && instance != 0u) {
+                instance = 0u;
+                floor_of_instance = 0u;
+                slab = slab_ray(ray->origin, ray->direction);
+                sheared = triangle_ray(ray->origin, ray->direction);
+                skip = ray->skip_instance == 0u ? ray->skip_primitive : TRIAD_NONE;
+            }
+#endif
+            if (size == 0u) return 0;
+            child = stack_child[--size];
+        } while (stack_entry[size] > best->t);
+    }
+}
+
+/* The closest hit with 0 < t <= ray.t_max; t in lengths of ray.direction. Equal t goes to the lower
+ * (instance, primitive). The triangle (skip_instance, skip_primitive) is never hit. */
+TRIAD_FUNCTION Hit traverse_closest(const Traversal* scene, Ray ray) {
+    Hit best;
+    best.t = ray.t_max;
+    best.u = best.v = 0.0f;
+    best.primitive = best.instance = TRIAD_NONE;
+    best.unused[0] = best.unused[1] = best.unused[2] = 0u;
+    traversal_walk(scene, &ray, &best, 0);
+    return best;
+}
+
+/* 1 when anything is hit with 0 < t <= ray.t_max, else 0. */
+TRIAD_FUNCTION int traverse_occluded(const Traversal* scene, Ray ray) {
+    Hit best;
+    best.t = ray.t_max;
+    return traversal_walk(scene, &ray, &best, 1);
+}
+
+#endif
