@@ -1,5 +1,6 @@
 #pragma once
-/// OpenCL behind a wall: this folder alone includes CL/*. A Device is one OpenCL device with an in-order queue.
+/// OpenCL behind a wall: this folder alone includes CL/*. A Device is one OpenCL device with an in-order
+/// queue.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -16,6 +17,12 @@
 
 namespace triad {
 
+namespace opencl {
+struct DeviceState;
+struct ProgramState;
+struct KernelState;
+}  // namespace opencl
+
 /// What `triad devices` shows. Zero is a legal answer for every number.
 struct DeviceInfo {
     std::size_t index = 0;  ///< over all platforms; stable while nothing is plugged in or out
@@ -26,8 +33,8 @@ struct DeviceInfo {
     std::size_t max_work_group = 0;
     bool fp64 = false, images = false, correctly_rounded = false, denormals = false, int64_atomics = false;
     bool usable = false;
-    bool preferred = false;       ///< what Triad chooses without --device
-    std::string why_unusable;     ///< a sentence; empty when usable
+    bool preferred = false;    ///< what Triad chooses without --device
+    std::string why_unusable;  ///< a sentence; empty when usable
 };
 
 /// A platform that offers nothing, and why; for `triad devices`.
@@ -40,11 +47,12 @@ struct DeviceList {
     std::vector<PlatformProblem> problems;
 };
 
-/// Every device of every platform. Never throws for a broken one: it is listed as unusable, or as a problem.
+/// Every device of every platform, in the order of their indices. Never throws for a broken one: it is listed
+/// as unusable, or as a problem.
 DeviceList list_devices();
 
-/// An error of the OpenCL layer: exit code 5 (4 when memory ran out). what() has the call, the code by name and number,
-/// device, driver, program, kernel, build options and the whole build log, as far as they apply.
+/// An error of the OpenCL layer: exit code 5 (4 when memory ran out). what() has the call, the code by name
+/// and number, device, driver, program, kernel, build options and the whole build log, as far as they apply.
 class DeviceError : public Error {
   public:
     DeviceError(Exit exit, int code, const std::string& sentence) : Error(exit, sentence), code_(code) {}
@@ -73,10 +81,7 @@ class Arguments {
   public:
     Arguments& add(const Buffer& buffer);
     template <class T>
-        requires(std::is_arithmetic_v<T>)
-    Arguments& add(T value) {
-        return add_bytes(&value, sizeof value);
-    }
+    requires(std::is_arithmetic_v<T>) Arguments& add(T value) { return add_bytes(&value, sizeof value); }
     Arguments& add(const Arguments& others);
 
   private:
@@ -86,7 +91,8 @@ class Arguments {
         bool is_buffer;
         std::vector<std::byte> bytes;
     };
-    Arguments& add_bytes(const void* data, std::size_t size);
+    Arguments& add_bytes(const void* data,
+                         std::size_t size);  // copies; any buffer stays alive until the launch
     std::vector<Value> values_;
 };
 
@@ -96,13 +102,12 @@ using Options = std::map<std::string, std::string>;
 class Kernel {
   public:
     Kernel() = default;
-    const std::string& name() const { return name_; }
+    const std::string& name() const;
 
   private:
     friend class Device;
     friend class Program;
-    std::shared_ptr<void> handle_;
-    std::string name_;
+    std::shared_ptr<const opencl::KernelState> state_;
 };
 
 class Program {
@@ -112,8 +117,7 @@ class Program {
 
   private:
     friend class Device;
-    std::shared_ptr<void> handle_;
-    std::string path_, device_;
+    std::shared_ptr<const opencl::ProgramState> state_;
 };
 
 /// Times of one kernel, from profiling events, in seconds.
@@ -122,11 +126,17 @@ struct KernelTime {
     double seconds = 0;
 };
 
-/// Kernel source: the files of kernels/, embedded in the binary, or read from a folder when one is set (--kernels DIR).
+/// Kernel source: the files of kernels/, embedded in the binary, or read from a folder when one is set
+/// (--kernels DIR).
 namespace kernel_source {
 void set_folder(const std::filesystem::path& folder);
-/// "traversal/intersect.cl" with its #includes flattened (each file once) and #line marks, so that logs name our files.
+/// "traversal/intersect.cl" with its #includes flattened (each file once) and #line marks, so that logs name
+/// our files.
 std::string load(const std::string& path);
+/// The same for a text that is no file of kernels/; `path` is the name that #line gives it.
+std::string flatten(const std::string& path, const std::string& text);
+/// One file as it is.
+std::string text(const std::string& path);
 /// Every .cl file, by path.
 std::vector<std::string> programs();
 /// Name of the content of all files; part of cache keys and of a device's verdict.
@@ -136,18 +146,19 @@ std::string hash();
 class Device {
   public:
     struct Settings {
-        std::string selector;    ///< "", index, "cpu"/"gpu", or part of the name or platform (case ignored)
-        unsigned threads = 0;    ///< CPU devices: compute units to use (0 = all)
-        bool profile = false;    ///< profiling queue; see times()
+        std::string selector;  ///< "", index, "cpu"/"gpu", or part of the name or platform (case ignored)
+        unsigned threads = 0;  ///< CPU devices: compute units to use (0 = all)
+        bool profile = false;  ///< profiling queue; see times()
     };
 
-    /// Throws Error(usage) for a selector that matches nothing usable (the sentence lists what there is), Error(device)
-    /// when there is no OpenCL device at all.
+    /// Throws Error(usage) for a selector that matches nothing usable (the sentence lists what there is),
+    /// Error(device) when there is no OpenCL device at all.
     static Device open(const Settings& settings);
 
     const DeviceInfo& info() const;
 
-    /// Uninitialised when `data` is null. Throws DeviceError(memory) that says how much was asked and how much there is.
+    /// Uninitialised when `data` is null. Throws DeviceError(memory) that says how much was asked and how
+    /// much there is.
     Buffer allocate(std::size_t bytes, const void* data = nullptr);
     template <class T>
     Buffer upload(std::span<const T> values) {
@@ -167,26 +178,27 @@ class Device {
     }
     void fill_zero(const Buffer& buffer);
 
-    /// Compiles `kernels/<path>` with these options and the flags of docs/kernels.md; cached within the process, and on
-    /// disk where the driver has no cache of its own. `source` overrides the text (tests).
+    /// Compiles `kernels/<path>` with these options and the flags of docs/kernels.md; cached within the
+    /// process, and on disk where the driver has no cache of its own. `source` overrides the text (tests).
     Program build(const std::string& path, const Options& options = {});
     Program build_source(const std::string& name, const std::string& source, const Options& options = {});
 
-    /// Enqueues `items` work-items (rounded up to a multiple of `local`: kernels guard). local 0 = preferred_local().
+    /// Enqueues `items` work-items (rounded up to a multiple of `local`: kernels guard). local 0 =
+    /// preferred_local().
     void run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local = 0);
     void finish();
 
-    /// Work-group size that was measured best on this device and driver for divergent kernels (64 until tuned).
+    /// Work-group size that was measured best on this device and driver for divergent kernels (64 until
+    /// tuned).
     std::size_t preferred_local() const;
     void set_preferred_local(std::size_t local);
 
-    double compile_seconds() const;  ///< spent in build() so far
+    double compile_seconds() const;             ///< spent in build() so far
     std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
 
   private:
-    struct State;
-    explicit Device(std::shared_ptr<State> state);
-    std::shared_ptr<State> state_;
+    explicit Device(std::shared_ptr<opencl::DeviceState> state) : state_(std::move(state)) {}
+    std::shared_ptr<opencl::DeviceState> state_;
 };
 
 }  // namespace triad

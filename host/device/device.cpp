@@ -1,0 +1,210 @@
+#include "device/device.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+
+#include "device/opencl.h"
+
+namespace triad {
+
+using opencl::own;
+using opencl::readable_bytes;
+using opencl::Where;
+
+namespace opencl {
+namespace {
+
+/// The device, or the part of a CPU device that has `threads` compute units. Sets info.compute_units to what
+/// is used.
+cl_device_id restrict_to(unsigned threads, DeviceState& state) {
+    DeviceInfo& info = state.core->info;
+    if (threads == 0 || threads >= info.compute_units || info.type != "cpu") return state.device;
+    const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
+                                                      static_cast<cl_device_partition_property>(threads),
+                                                      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
+    cl_device_id part = nullptr;
+    Where where{.sentence = "The driver cannot be held to " + std::to_string(threads) +
+                            " threads; leave --threads out."};
+    state.core->check("clCreateSubDevices", clCreateSubDevices(state.device, by_counts, 1, &part, nullptr),
+                      where);
+    state.partition = own(part, clReleaseDevice, state.core);
+    info.compute_units = threads;
+    return part;
+}
+
+}  // namespace
+
+void DeviceState::finish() {
+    core->require_alive();
+    core->check("clFinish", clFinish(commands()));
+    for (const auto& [kernel, handle] : events) {
+        cl_ulong start = 0, end = 0;
+        const auto event = static_cast<cl_event>(handle.get());
+        for (const auto& [what, time] :
+             {std::pair(CL_PROFILING_COMMAND_START, &start), {CL_PROFILING_COMMAND_END, &end}})
+            core->check("clGetEventProfilingInfo",
+                        clGetEventProfilingInfo(event, what, sizeof *time, time, nullptr),
+                        {.kernel = kernel});
+        KernelTime& sum = times[kernel];
+        ++sum.launches;
+        sum.seconds += static_cast<double>(end - start) * 1e-9;
+    }
+    events.clear();
+}
+
+}  // namespace opencl
+
+Device Device::open(const Settings& settings) {
+    const opencl::Found found = opencl::choose(settings.selector);
+    auto state = std::make_shared<opencl::DeviceState>();
+    opencl::Core& core = *state->core;
+    core.info = found.info;
+    state->profile = settings.profile;
+    state->platform_version = opencl::platform_text(found.platform, CL_PLATFORM_VERSION);
+    // PoCL keeps compiled kernels itself, and asking it for binaries compiles everything a second time.
+    state->disk_cache = found.info.platform != "Portable Computing Language";
+    state->device = found.device;
+    state->device = opencl::restrict_to(settings.threads, *state);
+
+    cl_int code = CL_SUCCESS;
+    const cl_context_properties on[] = {CL_CONTEXT_PLATFORM,
+                                        reinterpret_cast<cl_context_properties>(found.platform), 0};
+    cl_context context = clCreateContext(on, 1, &state->device, nullptr, nullptr, &code);
+    core.check("clCreateContext", code);
+    state->context = own(context, clReleaseContext, state->core);
+    cl_command_queue queue =
+        clCreateCommandQueue(context, state->device, settings.profile ? CL_QUEUE_PROFILING_ENABLE : 0, &code);
+    core.check("clCreateCommandQueue", code);
+    state->queue = own(queue, clReleaseCommandQueue, state->core);
+
+    Device device(std::move(state));
+    device.set_preferred_local(64);
+    return device;
+}
+
+const DeviceInfo& Device::info() const { return state_->core->info; }
+
+Buffer Device::allocate(std::size_t bytes, const void* data) {
+    if (bytes == 0) return {};
+    const auto& core = state_->core;
+    core->require_alive();
+    const DeviceInfo& info = core->info;
+    const Where where{.sentence =
+                          "Out of device memory: " + readable_bytes(bytes) +
+                          " were asked for in one piece; the largest piece is " +
+                          readable_bytes(info.max_allocation) + ", and " + readable_bytes(core->allocated) +
+                          " of " + readable_bytes(info.memory) +
+                          " are in use by this process. Use a smaller picture or scene, or another device."};
+    // Drivers need not refuse more than the largest piece, so ask no driver.
+    if (info.max_allocation > 0 && bytes > info.max_allocation)
+        core->check("clCreateBuffer", CL_INVALID_BUFFER_SIZE, where);
+    cl_int code = CL_SUCCESS;
+    const cl_mem_flags flags = CL_MEM_READ_WRITE | (data ? CL_MEM_COPY_HOST_PTR : 0);
+    cl_mem memory = clCreateBuffer(state_->cl(), flags, bytes, const_cast<void*>(data), &code);
+    core->check("clCreateBuffer", code, where);
+    core->allocated += bytes;
+    Buffer buffer;
+    buffer.bytes_ = bytes;
+    buffer.handle_ = {memory, [core, bytes](void* object) {
+                          core->allocated -= bytes;
+                          if (!core->lost) clReleaseMemObject(static_cast<cl_mem>(object));
+                      }};
+    return buffer;
+}
+
+void Device::write(const Buffer& buffer, const void* data, std::size_t bytes, std::size_t offset) {
+    if (bytes == 0) return;
+    state_->core->require_alive();
+    state_->core->check("clEnqueueWriteBuffer",
+                        clEnqueueWriteBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
+                                             CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+}
+
+void Device::read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset) {
+    if (bytes == 0) return;
+    state_->core->require_alive();
+    state_->core->check("clEnqueueReadBuffer",
+                        clEnqueueReadBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
+                                            CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+}
+
+void Device::fill_zero(const Buffer& buffer) {
+    if (!buffer) return;
+    state_->core->require_alive();
+    const cl_uchar zero = 0;
+    state_->core->check("clEnqueueFillBuffer",
+                        clEnqueueFillBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
+                                            &zero, sizeof zero, 0, buffer.bytes(), 0, nullptr, nullptr));
+}
+
+void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local) {
+    if (items == 0) return;
+    opencl::Core& core = *state_->core;
+    core.require_alive();
+    const opencl::KernelState& state = *kernel.state_;
+    const auto handle = static_cast<cl_kernel>(state.handle.get());
+    // A kernel keeps the arguments of its last launch, which would hide that one is missing now.
+    if (arguments.values_.size() != state.argument_count) {
+        Where where = state.where;
+        where.sentence = "Kernel " + kernel.name() + " takes " + std::to_string(state.argument_count) +
+                         " arguments, not " + std::to_string(arguments.values_.size()) + ".";
+        core.check("clSetKernelArg", CL_INVALID_KERNEL_ARGS, where);
+    }
+    for (cl_uint i = 0; i < state.argument_count; ++i) {
+        const Arguments::Value& value = arguments.values_[i];
+        void* const memory = value.buffer.get();
+        const cl_int code = value.is_buffer
+                                ? clSetKernelArg(handle, i, sizeof(cl_mem), memory ? &memory : nullptr)
+                                : clSetKernelArg(handle, i, value.bytes.size(), value.bytes.data());
+        if (code == CL_SUCCESS) continue;
+        Where where = state.where;
+        where.sentence = "Argument " + std::to_string(i) + " of kernel " + kernel.name() + " does not fit.";
+        core.check("clSetKernelArg", code, where);
+    }
+    if (local == 0) {
+        local = preferred_local();
+        if (state.max_local > 0) local = std::min(local, state.max_local);
+    }
+    const std::size_t global = (items + local - 1) / local * local;
+    cl_event event = nullptr;
+    core.check("clEnqueueNDRangeKernel",
+               clEnqueueNDRangeKernel(state_->commands(), handle, 1, nullptr, &global, &local, 0, nullptr,
+                                      state_->profile ? &event : nullptr),
+               state.where);
+    if (event) state_->events.emplace_back(kernel.name(), own(event, clReleaseEvent, state_->core));
+}
+
+void Device::finish() { state_->finish(); }
+
+std::size_t Device::preferred_local() const { return state_->preferred_local; }
+
+void Device::set_preferred_local(std::size_t local) {
+    const std::size_t most = info().max_work_group;
+    state_->preferred_local = std::max<std::size_t>(1, most > 0 ? std::min(local, most) : local);
+}
+
+double Device::compile_seconds() const { return state_->compile_seconds; }
+
+std::map<std::string, KernelTime> Device::times() {
+    if (state_->profile) state_->finish();
+    return state_->times;
+}
+
+Arguments& Arguments::add(const Buffer& buffer) {
+    values_.push_back({buffer.handle_, true, {}});
+    return *this;
+}
+
+Arguments& Arguments::add(const Arguments& others) {
+    values_.insert(values_.end(), others.values_.begin(), others.values_.end());
+    return *this;
+}
+
+Arguments& Arguments::add_bytes(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const std::byte*>(data);
+    values_.push_back({nullptr, false, {bytes, bytes + size}});
+    return *this;
+}
+
+}  // namespace triad
