@@ -164,6 +164,16 @@ typedef struct Material {
 } Material;
 TRIAD_SIZE(Material, 128);
 
+/* Directional-albedo tables, one float array (host/render/albedo_tables.h, kernels/shading/albedo.h).
+ * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over [0, 1].
+ * Then rough dielectric bodies: [outside, inside][(n-1)/(n+1)][roughness][sqrt(mu)][2], index axis over
+ * [0, ALBEDO_GLASS_MAX] (n = 4 at its end). */
+#define ALBEDO_SIZE 32
+#define ALBEDO_GLASS_SIZE 16
+#define ALBEDO_GLASS_MAX 0.6f
+#define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
+#define ALBEDO_FLOATS (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+
 /* ---- Lights --------------------------------------------------------------------------------------------------------- */
 
 #define LIGHT_TRIANGLE 0u

@@ -1,0 +1,113 @@
+/* Random numbers as a function of their name: (pixel, sample index, stream, seed, set of two dimensions).
+ * Nothing is stored, so that a picture does not depend on batch size, order, resume or merge. Integers only
+ * up to the last step: the same bits on every device.
+ *
+ * Sets 0 to SAMPLER_SOBOL_SETS - 1 are the first two dimensions of Sobol's sequence, Owen-scrambled, with the
+ * index shuffled anew for each set (Burley 2020, "Practical Hash-based Owen Scrambling"; the hash is Laine
+ * and Karras's with Vegdahl's constants, as in pbrt-v4's FastOwenScrambler). Sets beyond are hashed.
+ *
+ * The plan of the path tracer: set 0 pixel, 1 lens, 2 (wavelength, time), and for bounce b
+ *   SAMPLER_BOUNCE(b) + 0 direction of the BSDF, + 1 (lobe, roulette), + 2 (choice of light, spare), + 3
+ * point on it.
+ */
+#ifndef TRIAD_COMMON_RANDOM_H
+#define TRIAD_COMMON_RANDOM_H
+
+#include "common/language.h"
+
+#define SAMPLER_PIXEL 0u
+#define SAMPLER_LENS 1u
+#define SAMPLER_TIME 2u
+#define SAMPLER_BOUNCE(b) (3u + 4u * (b))
+#define SAMPLER_DIRECTION 0u
+#define SAMPLER_LOBE 1u
+#define SAMPLER_LIGHT 2u
+#define SAMPLER_POINT 3u
+#define SAMPLER_SOBOL_SETS SAMPLER_BOUNCE(8u)
+
+/* 24 bits, in [0, 1 - 2^-24]: float(u) * 2^-32 would reach 1. */
+TRIAD_FUNCTION float random_float(uint bits) { return convert_float(bits >> 8) * 5.9604644775390625e-8f; }
+
+/* lowbias32 (Wellons): a bijection whose every output bit depends on every input bit. */
+TRIAD_FUNCTION uint random_mix(uint x) {
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return x ^ (x >> 16);
+}
+/* pcg4d (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"). */
+TRIAD_FUNCTION uint4 random_pcg4d(uint4 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+/* One number from four, for choices that must be the same whenever they are asked again (stochastic
+ * coverage). */
+TRIAD_FUNCTION uint random_hash(uint4 name) { return random_pcg4d(name).x; }
+
+TRIAD_FUNCTION uint random_reverse_bits(uint v) {
+    v = (v << 16) | (v >> 16);
+    v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
+    v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
+    v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
+    return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
+}
+/* Owen's nested uniform scramble of a number whose bits are reversed: a bit is flipped by a hash of the bits
+ * below. */
+TRIAD_FUNCTION uint random_owen_reversed(uint v, uint seed) {
+    v ^= v * 0x3d20adeau;
+    v += seed;
+    v *= (seed >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    v ^= v * 0x53a22864u;
+    return v;
+}
+/* Dimension 1 of Sobol's sequence with its bits reversed, from the index: Pascal's triangle modulo 2 as five
+ * masked shifts. Dimension 0 with its bits reversed is the index itself. */
+TRIAD_FUNCTION uint random_sobol1_reversed(uint index) {
+    index ^= (index >> 1) & 0x55555555u;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    return index ^ (index >> 16);
+}
+
+typedef struct Sampler {
+    uint index_reversed;
+    uint key0, key1; /* of pixel, stream, seed and the upper half of the index */
+} Sampler;
+
+/* pixel: index in the full picture. index, index_high: the 64-bit number of the sample within its stream;
+ * after 2^32 samples a stream goes on with another scramble. stream: what is scrambled independently within a
+ * pixel (bin, half). */
+TRIAD_FUNCTION Sampler sampler_make(uint pixel, uint index, uint index_high, uint stream, uint seed) {
+    uint4 key = random_pcg4d((uint4)(pixel, index_high, stream, seed));
+    Sampler s;
+    s.index_reversed = random_reverse_bits(index);
+    s.key0 = key.x;
+    s.key1 = key.y;
+    return s;
+}
+
+TRIAD_FUNCTION uint2 sampler_2d_bits(const Sampler* s, uint set) {
+    if (set >= SAMPLER_SOBOL_SETS) return random_pcg4d((uint4)(s->key0, s->index_reversed, set, s->key1)).xy;
+    uint hash = random_mix(s->key0 ^ (set * 0x9e3779b9u));
+    /* Owen-scrambled van der Corput numbers are a shuffled index with its bits reversed */
+    uint index = random_reverse_bits(random_owen_reversed(s->index_reversed, hash));
+    uint x = random_owen_reversed(index, hash * 0x2c1b3c6du + s->key1);
+    uint y = random_owen_reversed(random_sobol1_reversed(index), hash * 0x297a2d39u ^ s->key1);
+    return (uint2)(random_reverse_bits(x), random_reverse_bits(y));
+}
+TRIAD_FUNCTION float2 sampler_2d(const Sampler* s, uint set) {
+    uint2 bits = sampler_2d_bits(s, set);
+    return (float2)(random_float(bits.x), random_float(bits.y));
+}
+
+#endif

@@ -1,0 +1,315 @@
+/* The glTF material: mix(dielectric, metal), where a dielectric is a coated diffuse base or, by
+ * `transmission`, a thin wall or the boundary of a solid body. Formulas, sources and what is not reciprocal:
+ * docs/shading.md.
+ *
+ * Local frame: +z is the shading normal on wo's side (wo.z > 0); wi.z < 0 is beyond the surface. All
+ * directions point away from the surface. f is the BSDF, values are f |cos wi|; pdfs are per solid angle.
+ * Radiance crossing into a body of index n changes by 1 / n^2 per the way of the path (Walter et al. 2007),
+ * and back on leaving it: bsdf.body_scale.
+ */
+#ifndef TRIAD_SHADING_BSDF_H
+#define TRIAD_SHADING_BSDF_H
+
+#include "common/math.h"
+#include "common/sampling.h"
+#include "shading/albedo.h"
+#include "shading/fresnel.h"
+#include "shading/ggx.h"
+
+#define BSDF_NONE 0u
+#define BSDF_DIFFUSE 1u
+#define BSDF_GLOSSY 2u
+#define BSDF_DELTA 4u
+#define BSDF_TRANSMIT 8u /* together with GLOSSY or DELTA: wi is beyond the surface */
+
+/* Below this a lobe is a mirror: float directions cannot resolve it. */
+#define BSDF_SMOOTH_ALPHA 1e-3f
+/* A body whose index differs from 1 by less is no interface. */
+#define BSDF_SAME_INDEX 1e-3f
+/* Share of the transmitting part that is sampled even where it looks black from wo. */
+#define BSDF_MIN_TRANSMITTER 0.1f
+
+/* Whatever transmits also reflects. */
+#define BSDF_TRANSMISSION (TRIAD_SPECULAR && TRIAD_TRANSMISSION)
+
+typedef struct BsdfInput {
+    float3 base_colour;
+    float metallic, roughness, ior, specular;
+    float3 specular_colour;
+    float transmission;
+    uint solid;  /* refracts: a closed body */
+    uint inside; /* wo is on the inner side of a solid body */
+} BsdfInput;
+
+/* A material seen from one wo. */
+typedef struct Bsdf {
+    float3 diffuse; /* albedo of the Lambert lobe */
+#if TRIAD_SPECULAR
+    float3 specular0, specular1; /* reflection of metal and coat: specular0 + specular1 (1 - wo.h)^5 */
+    float alpha;
+    float stretch;    /* ggx_stretch of wo */
+    float cap;        /* ggx_cap of wo; 1 when it transmits */
+    float p_specular; /* probability of sampling the microfacets and not the Lambert lobe */
+    uint smooth;      /* the microfacets are one mirror: delta lobes */
+#endif
+#if BSDF_TRANSMISSION
+    uint transmits;
+    uint solid;
+    float eta;                 /* index beyond the surface over index before it */
+    float body_scale;          /* of radiance that crosses: 1 / eta^2 of a solid body, else 1 */
+    float3 fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
+    float3 transmitter;        /* its weight, energy compensation included */
+    float3 tint;
+#endif
+} Bsdf;
+
+typedef struct BsdfSample {
+    float3 wi;
+    float3 weight; /* f |cos| / pdf */
+    float pdf;     /* solid angle, over all lobes; 0 for a delta lobe */
+    uint event;    /* BSDF_* bits; BSDF_NONE: absorbed */
+} BsdfSample;
+
+#if BSDF_TRANSMISSION
+/* Fresnel factor of the transmitting part, c the cosine on wo's side. */
+TRIAD_FUNCTION float3 bsdf_transmitter_fresnel(const Bsdf* b, float c) {
+    float r = fresnel_dielectric(c, b->eta);
+    if (r >= 1.0f) return (float3)(1.0f);
+    float3 f = fma(b->fresnel1, (float3)(r), b->fresnel0);
+    /* both faces of a thin wall and all reflections between them: R = 2F / (1 + F), T = (1 - F) / (1 + F) */
+    return b->solid ? f : 2.0f * f / (1.0f + f);
+}
+#endif
+
+#if TRIAD_SPECULAR
+/* What a microfacet reflects and lets through (change of radiance not included) at wo.h = c. */
+TRIAD_FUNCTION void bsdf_microfacet(const Bsdf* b, float c, float3* reflected, float3* transmitted) {
+    *reflected = fma(b->specular1, (float3)(fresnel_schlick_weight(c)), b->specular0);
+    *transmitted = (float3)(0.0f);
+#if BSDF_TRANSMISSION
+    if (b->transmits) {
+        float3 f = bsdf_transmitter_fresnel(b, c);
+        *reflected += b->transmitter * f;
+        *transmitted = b->transmitter * b->tint * (1.0f - f);
+    }
+#endif
+}
+
+/* Probability of choosing reflection at such a microfacet; negative when it is black. */
+TRIAD_FUNCTION float bsdf_reflect_probability(const Bsdf* b, float3 reflected, float3 transmitted) {
+#if BSDF_TRANSMISSION
+    if (b->transmits) {
+        float r = math_average(reflected), t = math_average(transmitted);
+        return r + t > 0.0f ? r / (r + t) : -1.0f;
+    }
+#else
+    (void)b, (void)reflected, (void)transmitted;
+#endif
+    return 1.0f;
+}
+#endif
+
+/* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission in [0, 1], ior 0 or at least 1. */
+TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float* albedo_tables) {
+    Bsdf b;
+#if !TRIAD_SPECULAR
+    (void)wo, (void)albedo_tables;
+    b.diffuse = in->base_colour;
+#else
+    float f0 = fresnel_normal(in->ior);
+    float3 coat0 =
+        (float3)(math_min(f0 * in->specular_colour.x, 1.0f), math_min(f0 * in->specular_colour.y, 1.0f),
+                 math_min(f0 * in->specular_colour.z, 1.0f)) *
+        in->specular;
+    float3 coat90 = (float3)(in->specular);
+    float dielectric = 1.0f - in->metallic;
+    float opaque = dielectric;
+    b.alpha = math_square(in->roughness);
+    b.smooth = b.alpha < BSDF_SMOOTH_ALPHA;
+#if BSDF_TRANSMISSION
+    float transmitter = in->ior >= 1.0f ? dielectric * in->transmission : 0.0f;
+    opaque = dielectric - transmitter;
+    b.transmits = transmitter > 0.0f;
+    b.solid = in->solid;
+    if (b.transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b.smooth = 1u;
+#endif
+    /* directional albedo of GGX reflection, Fresnel factor 1 and (1 - cos)^5 */
+    float2 albedo = (float2)(1.0f, fresnel_schlick_weight(wo.z));
+    float root_mu = sqrt(wo.z);
+    if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
+    float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
+
+    float3 metal0 = in->base_colour;
+    float3 metal = in->metallic * fma(metal0, (float3)(missing), (float3)(1.0f));
+    float3 coat = fma(coat0, (float3)(missing), (float3)(1.0f));
+    b.specular0 = fma(metal, metal0, opaque * coat * coat0);
+    b.specular1 = fma(metal, 1.0f - metal0, opaque * coat * (coat90 - coat0));
+    float3 coat_albedo = coat * fma(coat90 - coat0, (float3)(albedo.y), coat0 * albedo.x);
+    b.diffuse = in->base_colour * (opaque * math_max(0.0f, 1.0f - math_max3(coat_albedo)));
+
+    b.stretch = ggx_stretch(wo, b.alpha);
+    float p = math_average(fma(b.specular1, (float3)(albedo.y), b.specular0 * albedo.x));
+    uint bounded = 1u;
+#if BSDF_TRANSMISSION
+    if (b.transmits) {
+        bounded = 0u;
+        b.fresnel1 = (coat90 - coat0) / (1.0f - f0);
+        b.fresnel0 = fma((float3)(-f0), b.fresnel1, coat0);
+        b.tint = in->base_colour;
+        b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
+        b.body_scale = in->solid ? 1.0f / (b.eta * b.eta) : 1.0f;
+        b.transmitter = (float3)(transmitter);
+        if (!b.smooth) {
+            float3 kept = (float3)(albedo.x);
+            if (in->solid) {
+                float2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, sqrt(f0), in->inside);
+                kept =
+                    b.fresnel0 * albedo.x + b.fresnel1 * glass.x + (1.0f - b.fresnel0 - b.fresnel1) * glass.y;
+            }
+            b.transmitter = transmitter / kept;
+        }
+        float3 f = bsdf_transmitter_fresnel(&b, wo.z);
+        p += transmitter * math_max(math_average(f + (1.0f - f) * b.tint), BSDF_MIN_TRANSMITTER);
+    }
+#endif
+    b.cap = bounded && !b.smooth ? ggx_cap(wo, b.alpha) : 1.0f;
+    float d = math_average(b.diffuse);
+    b.p_specular = p > 0.0f ? (d > 0.0f ? p / (p + d) : 1.0f) : 0.0f;
+#endif
+    return b;
+}
+
+/* Nonzero when bsdf_eval can be: else there is no point in sampling lights. */
+TRIAD_FUNCTION uint bsdf_has_smooth(const Bsdf* b) {
+    uint lit = b->diffuse.x > 0.0f || b->diffuse.y > 0.0f || b->diffuse.z > 0.0f;
+#if TRIAD_SPECULAR
+    lit = lit || (b->p_specular > 0.0f && !b->smooth);
+#endif
+    return lit;
+}
+
+#if TRIAD_SPECULAR
+/* Adds the microfacets' f |cos| and pdf; wi.z != 0. */
+TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, float3* f, float* pdf) {
+    float3 reflected, transmitted;
+#if BSDF_TRANSMISSION
+    if (wi.z < 0.0f) {
+        float3 w = b->solid ? wi : (float3)(wi.x, wi.y, -wi.z);
+        float eta = b->solid ? b->eta : 1.0f;
+        float3 h = fma((float3)(eta), w, wo);
+        float l2 = math_dot(h, h);
+        if (!(l2 > 0.0f)) return;
+        h *= (h.z < 0.0f ? -1.0f : 1.0f) / sqrt(l2);
+        float wo_h = math_dot(wo, h), wi_h = math_dot(w, h);
+        if (wo_h <= 0.0f || (b->solid && wi_h >= 0.0f)) return;
+        bsdf_microfacet(b, wo_h, &reflected, &transmitted);
+        float reflect = bsdf_reflect_probability(b, reflected, transmitted);
+        if (reflect < 0.0f) return;
+        float d = ggx_distribution(h, b->alpha);
+        /* |d omega_h / d omega_i|: Walter et al. 2007 eq. 17; a thin wall mirrors the reflection */
+        float jacobian = b->solid ? eta * eta * -wi_h / l2 : 1.0f / (4.0f * wo_h);
+        float masking = ggx_masking(wo.z, b->stretch, -wi.z, ggx_stretch(wi, b->alpha));
+        *f += transmitted * (b->body_scale * wo_h * jacobian * d * masking);
+        *pdf += b->p_specular * (1.0f - reflect) * jacobian * ggx_normal_pdf(d, wo_h, wo.z, b->stretch);
+        return;
+    }
+#endif
+    float3 h = wo + wi;
+    float c = 0.5f * math_length(h); /* |wo + wi| = 2 wo.h */
+    bsdf_microfacet(b, c, &reflected, &transmitted);
+    float reflect = bsdf_reflect_probability(b, reflected, transmitted);
+    if (reflect < 0.0f) return;
+    float d = ggx_distribution(h, b->alpha);
+    *f += reflected * (0.25f * d * ggx_masking(wo.z, b->stretch, wi.z, ggx_stretch(wi, b->alpha)));
+    *pdf += b->p_specular * reflect * ggx_reflection_pdf(d, wo.z, b->stretch, b->cap);
+}
+#endif
+
+/* f |cos wi| and its pdf over all lobes; delta lobes excluded. */
+TRIAD_FUNCTION float3 bsdf_eval(const Bsdf* b, float3 wo, float3 wi, float* pdf) {
+    float3 f = (float3)(0.0f);
+    *pdf = 0.0f;
+    if (wi.z > 0.0f) {
+        float lambert = wi.z * MATH_INV_PI;
+        f = b->diffuse * lambert;
+        *pdf = lambert;
+    }
+#if TRIAD_SPECULAR
+    if (b->p_specular > 0.0f) {
+        *pdf *= 1.0f - b->p_specular;
+        uint lit = wi.z > 0.0f;
+#if BSDF_TRANSMISSION
+        lit = lit || (b->transmits && wi.z < 0.0f);
+#endif
+        if (lit && !b->smooth) bsdf_eval_microfacets(b, wo, wi, &f, pdf);
+    }
+#else
+    (void)wo;
+#endif
+    return f;
+}
+
+/* One sample: u_lobe picks the lobe, u the direction; all in [0, 1). */
+TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, float2 u) {
+    BsdfSample s;
+    s.wi = (float3)(0.0f, 0.0f, 1.0f);
+    s.weight = (float3)(0.0f);
+    s.pdf = 0.0f;
+    s.event = BSDF_NONE;
+#if TRIAD_SPECULAR
+    if (u_lobe < b->p_specular) {
+        float3 h = b->smooth ? (float3)(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, b->cap, u);
+        float c = b->smooth ? wo.z : math_min(math_dot(wo, h), 1.0f);
+        float3 reflected, transmitted;
+        bsdf_microfacet(b, c, &reflected, &transmitted);
+        float reflect = bsdf_reflect_probability(b, reflected, transmitted);
+        if (c <= 0.0f || reflect < 0.0f) return s;
+        uint through = 0u;
+#if BSDF_TRANSMISSION
+        through = b->transmits && u_lobe >= reflect * b->p_specular;
+        if (through && b->solid) {
+            s.wi = fma((float3)(c / b->eta - fresnel_refracted_cosine(c, b->eta)), h, wo * (-1.0f / b->eta));
+            if (b->eta == 1.0f) s.wi = -wo;
+        } else
+#endif
+        {
+            s.wi = math_reflect(wo, h);
+            if (through) s.wi.z = -s.wi.z;
+        }
+        if (through ? s.wi.z >= 0.0f : s.wi.z <= 0.0f) return s; /* single scattering ends in the surface */
+        s.event = (b->smooth ? BSDF_DELTA : BSDF_GLOSSY) | (through ? BSDF_TRANSMIT : 0u);
+        if (b->smooth) {
+            float p = b->p_specular * (through ? 1.0f - reflect : reflect);
+            s.weight = (through ? transmitted : reflected) / p;
+#if BSDF_TRANSMISSION
+            if (through) s.weight *= b->body_scale;
+#endif
+            return s;
+        }
+        s.wi = math_normalize(s.wi);
+    } else
+#endif
+    {
+        s.wi = sampling_cosine(u);
+        s.event = BSDF_DIFFUSE;
+#if TRIAD_SPECULAR
+        if (!(b->p_specular > 0.0f))
+#else
+        (void)u_lobe;
+#endif
+        { /* nothing but Lambert */
+            s.weight = b->diffuse;
+            s.pdf = sampling_cosine_pdf(s.wi.z);
+            return s;
+        }
+    }
+    float3 f = bsdf_eval(b, wo, s.wi, &s.pdf);
+    if (!(s.pdf > 0.0f)) {
+        s.event = BSDF_NONE;
+        return s;
+    }
+    s.weight = f / s.pdf;
+    return s;
+}
+
+#endif

@@ -1,0 +1,61 @@
+/* The GGX microfacet distribution (Walter et al. 2007) with height-correlated Smith masking (Heitz 2014), in
+ * a local frame whose +z is the surface normal; isotropic. alpha = roughness^2, 1e-4 <= alpha <= 1.
+ *
+ * With s(w) = sqrt(alpha^2 (x^2 + y^2) + z^2) = |z| (1 + 2 Lambda(w)), every masking term is a ratio of sums
+ * without cancellation: G1(w) = 2 z / (z + s), G2(o, i) = 2 z_o z_i / (z_i s_o + z_o s_i).
+ */
+#ifndef TRIAD_SHADING_GGX_H
+#define TRIAD_SHADING_GGX_H
+
+#include "common/math.h"
+
+/* D of the direction h, which need not be normalised: alpha^2 / (pi (x^2 + y^2 + alpha^2 z^2)^2) for a unit
+ * h. The usual form with cos^2 (alpha^2 - 1) + 1 loses everything below alpha 1e-3. */
+TRIAD_FUNCTION float ggx_distribution(float3 h, float alpha) {
+    float xy = fma(h.x, h.x, h.y * h.y), z = h.z * h.z;
+    float q = alpha * (xy + z) / fma(alpha * alpha, z, xy);
+    return q * q * MATH_INV_PI;
+}
+
+/* s(w). */
+TRIAD_FUNCTION float ggx_stretch(float3 w, float alpha) {
+    return sqrt(fma(alpha * alpha, fma(w.x, w.x, w.y * w.y), w.z * w.z));
+}
+
+/* Lower bound k of the spherical cap that reflects above the horizon (Eto and Tokuyoshi 2023, eq. 5); 1 =
+ * unbounded. */
+TRIAD_FUNCTION float ggx_cap(float3 wo, float alpha) {
+    float s2 = math_square(1.0f + sqrt(fma(wo.x, wo.x, wo.y * wo.y)));
+    float a2 = alpha * alpha;
+    return (1.0f - a2) * s2 / fma(a2, wo.z * wo.z, s2);
+}
+
+/* A visible normal for wo (wo.z >= 0), stretch = s(wo): spherical caps (Dupuy and Benyoub 2023), cut at k (1:
+ * whole). Unit, z > 0, and on wo's side. */
+TRIAD_FUNCTION float3 ggx_sample(float3 wo, float alpha, float stretch, float k, float2 u) {
+    float inv = 1.0f / stretch;
+    float3 w = (float3)(alpha * wo.x * inv, alpha * wo.y * inv, wo.z * inv);
+    float z = fma(1.0f - u.y, fma(k, w.z, 1.0f), -k * w.z);
+    float r = math_sqrt((1.0f - z) * (1.0f + z));
+    float s, c;
+    math_sincos_turns(u.x, &s, &c);
+    /* z + w.z >= (1 - k) w.z is a difference: below half an ulp it may vanish, never go under */
+    float3 h = (float3)(alpha * fma(r, c, w.x), alpha * fma(r, s, w.y), math_max(z + w.z, 1e-7f));
+    return math_normalize(h);
+}
+
+/* Density over solid angle of the reflection of wo about ggx_sample's normal, from d = D(h): the factor 1 /
+ * (4 wo.h) and wo.h cancel. */
+TRIAD_FUNCTION float ggx_reflection_pdf(float d, float z_o, float stretch_o, float k) {
+    return d / (2.0f * fma(k, z_o, stretch_o));
+}
+/* Density over solid angle of the visible normal itself. */
+TRIAD_FUNCTION float ggx_normal_pdf(float d, float wo_h, float z_o, float stretch_o) {
+    return 2.0f * d * wo_h / (z_o + stretch_o);
+}
+/* G2 / z_o: the masking of both directions over the cosine of wo; z_i = |cos| of wi. */
+TRIAD_FUNCTION float ggx_masking(float z_o, float stretch_o, float z_i, float stretch_i) {
+    return 2.0f * z_i / fma(z_i, stretch_o, z_o * stretch_i);
+}
+
+#endif
