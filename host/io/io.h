@@ -49,19 +49,28 @@ struct Picture {
     const Channel* find(const std::string& name) const;
 };
 
-/// EXR, float (or half: saturated at 65504, the number saturated is returned). Written aside and renamed.
+/// EXR, float (or half: saturated at 65504, the number saturated is returned; depth, position and counts stay float).
+/// Scanlines, ZIP; the data window is the crop, the display window the full picture. Metadata become attributes of the
+/// same name: strings, but pbrt's names have pbrt's types. Written aside and renamed.
 std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half = false);
+/// The same file as bytes, for standard output.
+std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false, std::size_t* saturated = nullptr);
 
-/// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits) to .png or .jpg by extension.
+/// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits in host order, alpha linear and unassociated) to
+/// .png or .jpg by extension. JPEG gets 8 bits, on black. Throws Error(usage) for another extension.
 struct EncodedPicture {
     unsigned width = 0, height = 0, channels = 3, bits = 8;
     std::vector<std::uint8_t> bytes;
-    Metadata metadata;
+    Metadata metadata;  ///< PNG: text chunks; JPEG: the comment
 };
 void write_encoded(const std::filesystem::path& path, const EncodedPicture& picture);
+/// The same file as bytes; extension ".png" or ".jpg".
+std::vector<std::uint8_t> encode_picture(const std::string& extension, const EncodedPicture& picture);
 
-/// Radiance .hdr of R, G, B.
+/// Radiance .hdr of R, G, B; what it cannot hold (negative, NaN) becomes 0.
 void write_hdr(const std::filesystem::path& path, const Picture& picture);
+/// The same file as bytes.
+std::vector<std::uint8_t> encode_hdr(const Picture& picture);
 
 /// Reads EXR, PNG, JPEG or HDR as float channels; integer formats are scaled to [0, 1] and stay encoded.
 Picture read_picture(const std::filesystem::path& path);

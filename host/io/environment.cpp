@@ -1,0 +1,72 @@
+/// Lat-long environment maps from Radiance .hdr and OpenEXR.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+#include "io/exr_header.h"
+#include "io/image_container.h"
+#include "io/io.h"
+#include "io/oiio.h"
+
+namespace triad {
+namespace {
+
+/// Where R, G and B lie among a file's channels; a single Y is grey.
+std::array<std::size_t, 3> colour_channels(const std::string& name,
+                                           const std::vector<std::string>& channels) {
+    const auto find = [&](const char* channel) {
+        return std::size_t(std::find(channels.begin(), channels.end(), channel) - channels.begin());
+    };
+    const std::size_t n = channels.size(), y = find("Y");
+    const std::array<std::size_t, 3> rgb{find("R"), find("G"), find("B")};
+    if (rgb[0] < n && rgb[1] < n && rgb[2] < n) return rgb;
+    if (y < n) return {y, y, y};
+    std::string list;
+    for (const auto& channel : channels) list += (list.empty() ? "" : ", ") + channel;
+    throw Error(Exit::scene,
+                "Environment " + name + " has neither channels R, G, B nor Y; it has " + list + ".");
+}
+
+}  // namespace
+
+EnvironmentMap load_environment(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::vector<std::uint8_t> bytes = read_file(path);
+    const ImageFormat format = sniff(bytes);
+    if (format == ImageFormat::exr) {
+        bytes = clean_exr(name, bytes).bytes;
+    } else if (format == ImageFormat::hdr) {
+        bytes = clean_hdr(name, bytes).bytes;
+    } else {
+        throw Error(Exit::scene, "Environment " + name + " is neither Radiance .hdr nor OpenEXR.");
+    }
+    oiio::Input input(name, format == ImageFormat::exr ? "openexr" : "hdr", bytes);
+    const OIIO::ImageSpec& spec = input.spec();
+    const auto rgb = colour_channels(name, spec.channelnames);
+    EnvironmentMap map{unsigned(spec.width), unsigned(spec.height), {}};
+    map.rgb.reserve(std::size_t(map.width) * map.height * 3);
+    std::size_t repaired = 0;
+    input.read_bands(OIIO::TypeDesc::FLOAT, [&](unsigned, unsigned rows, const std::uint8_t* values) {
+        for (std::size_t i = 0; i < std::size_t(rows) * map.width; ++i) {
+            bool bad = false;
+            for (const std::size_t c : rgb) {
+                float v;
+                std::memcpy(&v, values + (i * std::size_t(spec.nchannels) + c) * sizeof v, sizeof v);
+                const bool good = v >= 0.0f && std::isfinite(v);
+                bad = bad || !good;
+                map.rgb.push_back(good ? v : 0.0f);
+            }
+            repaired += bad;
+        }
+    });
+    if (repaired > 0)
+        warn("environment " + name + ": " + std::to_string(repaired) +
+             " texels are negative or not finite; those values are taken as 0");
+    return map;
+}
+
+}  // namespace triad

@@ -1,0 +1,188 @@
+/// Pictures to EXR, PNG, JPEG and HDR. Everything is encoded in memory and then written aside, so that a full
+/// disk is noticed before an older file is replaced.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+
+#include "base/colour.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "io/io.h"
+#include "io/oiio.h"
+
+namespace triad {
+namespace {
+
+void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
+    write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// Depths, positions, counts and weights lose their meaning in half precision.
+bool must_be_float(const std::string& channel) {
+    for (const char* layer : {"depth.", "position.", "samplecount.", "triad_weight"})
+        if (channel.starts_with(layer)) return true;
+    return channel == "Z";
+}
+
+/// pbrt-v4's names keep pbrt-v4's types (util/image.cpp); everything else is a string.
+void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const std::string& value) {
+    if (name == "renderTimeSeconds" || name == "MSE") {
+        spec.attribute(name, std::strtof(value.c_str(), nullptr));
+    } else if (name == "samplesPerPixel") {
+        spec.attribute(name, int(std::strtol(value.c_str(), nullptr, 10)));
+    } else if (name == "worldToCamera" || name == "worldToNDC") {
+        float m[16];
+        const char* at = value.c_str();
+        for (float& v : m) {
+            char* end;
+            v = std::strtof(at, &end);
+            at = end;
+        }
+        spec.attribute(name, OIIO::TypeMatrix, m);
+    } else {
+        spec.attribute(name, value);
+    }
+}
+
+/// The channels side by side, interleaved. Throws std::logic_error when a channel has not one value per
+/// pixel.
+std::vector<float> interleave(const Picture& picture, const std::vector<const Channel*>& channels) {
+    const std::size_t pixels = std::size_t(picture.width) * picture.height, n = channels.size();
+    if (pixels == 0 || n == 0)
+        throw Error(Exit::scene, "There is no picture to write: it has no pixels or no channels.");
+    std::vector<float> values(pixels * n);
+    for (std::size_t c = 0; c < n; ++c) {
+        if (channels[c]->values.size() != pixels)
+            throw std::logic_error("channel " + channels[c]->name + " does not have one value per pixel");
+        for (std::size_t p = 0; p < pixels; ++p) values[p * n + c] = channels[c]->values[p];
+    }
+    return values;
+}
+
+/// JPEG has 8 bits and no alpha: the picture is put on black, in linear light.
+EncodedPicture for_jpeg(const EncodedPicture& picture) {
+    EncodedPicture out{picture.width,   picture.height, std::min(picture.channels, 3u), 8, {},
+                       picture.metadata};
+    const auto sample = [&](std::size_t i) -> double {
+        if (picture.bits == 8) return picture.bytes[i] / 255.0;
+        std::uint16_t v;
+        std::memcpy(&v, picture.bytes.data() + 2 * i, sizeof v);
+        return v / 65535.0;
+    };
+    out.bytes.reserve(std::size_t(out.width) * out.height * out.channels);
+    for (std::size_t p = 0; p < std::size_t(out.width) * out.height; ++p) {
+        const double alpha = picture.channels == 4 ? sample(p * 4 + 3) : 1.0;
+        for (unsigned c = 0; c < out.channels; ++c) {
+            const double v = sample(p * picture.channels + c);
+            out.bytes.push_back(
+                std::uint8_t(std::lround(255.0 * (alpha == 1.0 ? v : srgb_encode(srgb_decode(v) * alpha)))));
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
+const Channel* Picture::find(const std::string& name) const {
+    const auto at =
+        std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+    return at == channels.end() ? nullptr : &*at;
+}
+
+std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half, std::size_t* saturated) {
+    std::vector<const Channel*> channels;
+    for (const Channel& channel : picture.channels) channels.push_back(&channel);
+    std::vector<float> values = interleave(picture, channels);
+
+    OIIO::ImageSpec spec(int(picture.width), int(picture.height), int(channels.size()),
+                         OIIO::TypeDesc::FLOAT);
+    spec.x = int(picture.x), spec.y = int(picture.y);
+    spec.full_width = int(picture.full_width ? picture.full_width : picture.width);
+    spec.full_height = int(picture.full_height ? picture.full_height : picture.height);
+    spec.channelnames.clear();
+    spec.alpha_channel = spec.z_channel = -1;
+    std::size_t count = 0;
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const bool narrow = half && !must_be_float(channels[c]->name);
+        spec.channelnames.push_back(channels[c]->name);
+        spec.channelformats.push_back(narrow ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
+        if (channels[c]->name == "A") spec.alpha_channel = int(c);
+        constexpr float half_max = 65504.0f;
+        for (std::size_t i = c; narrow && i < values.size(); i += channels.size())
+            if (std::abs(values[i]) > half_max) values[i] = std::copysign(half_max, values[i]), ++count;
+    }
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    for (const auto& [name, value] : picture.metadata) add_attribute(spec, name, value);
+    if (saturated) *saturated = count;
+    return oiio::encode("openexr", spec, OIIO::TypeDesc::FLOAT, values.data());
+}
+
+std::vector<std::uint8_t> encode_hdr(const Picture& picture) {
+    std::vector<const Channel*> channels;
+    for (const char* name : {"R", "G", "B"}) {
+        channels.push_back(picture.find(name));
+        if (!channels.back())
+            throw Error(Exit::usage, "A Radiance .hdr holds R, G and B, and this picture has no " +
+                                         std::string(name) + ".");
+    }
+    std::vector<float> values = interleave(picture, channels);
+    constexpr float rgbe_max = 1.6e38f;  // below 2^127: the exponent byte of RGBE ends there
+    for (float& v : values)
+        v = v > 0.0f ? std::min(v, rgbe_max) : 0.0f;  // NaN and negatives: RGBE has neither
+    return oiio::encode("hdr",
+                        OIIO::ImageSpec(int(picture.width), int(picture.height), 3, OIIO::TypeDesc::FLOAT),
+                        OIIO::TypeDesc::FLOAT, values.data());
+}
+
+std::vector<std::uint8_t> encode_picture(const std::string& extension, const EncodedPicture& given) {
+    std::string lower = extension;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    const bool jpeg = lower == ".jpg" || lower == ".jpeg";
+    if (!jpeg && lower != ".png")
+        throw Error(Exit::usage, "Cannot write a picture as \"" + extension +
+                                     "\": .exr, .png, .jpg and .hdr are possible.");
+    const bool channels_right = given.channels == 1 || given.channels == 3 || given.channels == 4;
+    if (!channels_right || (given.bits != 8 && given.bits != 16) ||
+        given.bytes.size() != std::size_t(given.width) * given.height * given.channels * given.bits / 8)
+        throw std::logic_error("the encoded picture does not have the bytes that its size says");
+    if (given.bytes.empty()) throw Error(Exit::scene, "There is no picture to write: it has no pixels.");
+    if (jpeg && std::max(given.width, given.height) > 65500)
+        throw Error(Exit::usage, "A JPEG has at most 65500 pixels in a row or column; write .png or .exr.");
+
+    const EncodedPicture converted = jpeg ? for_jpeg(given) : EncodedPicture{};
+    const EncodedPicture& picture = jpeg ? converted : given;
+    const OIIO::TypeDesc type = picture.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+    OIIO::ImageSpec spec(int(picture.width), int(picture.height), int(picture.channels), type);
+    spec.alpha_channel = picture.channels == 4 ? 3 : -1;
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    if (jpeg) {
+        spec.attribute("Compression", "jpeg:95");
+        spec.attribute("jpeg:subsampling", "4:4:4");
+        std::string text;
+        for (const auto& [name, value] : picture.metadata) text += name + "=" + value + "\n";
+        if (!text.empty()) spec.attribute("ImageDescription", text);
+    } else {
+        for (const auto& [name, value] : picture.metadata) spec.attribute(name, value);
+    }
+    return oiio::encode(jpeg ? "jpeg" : "png", spec, type, picture.bytes.data());
+}
+
+std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half) {
+    std::size_t saturated = 0;
+    save(path, encode_exr(picture, half, &saturated));
+    return saturated;
+}
+
+void write_hdr(const std::filesystem::path& path, const Picture& picture) { save(path, encode_hdr(picture)); }
+
+void write_encoded(const std::filesystem::path& path, const EncodedPicture& picture) {
+    save(path, encode_picture(path.extension().string(), picture));
+}
+
+}  // namespace triad

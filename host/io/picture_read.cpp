@@ -1,0 +1,66 @@
+/// Pictures of any format as float channels.
+#include <cstring>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "io/exr_header.h"
+#include "io/image_container.h"
+#include "io/io.h"
+#include "io/oiio.h"
+
+namespace triad {
+namespace {
+
+Picture read_channels(const std::string& name, const char* format, std::span<const std::uint8_t> bytes) {
+    oiio::Input input(name, format, bytes);
+    const OIIO::ImageSpec& spec = input.spec();
+    Picture picture;
+    picture.width = unsigned(spec.width), picture.height = unsigned(spec.height);
+    const std::size_t n = std::size_t(spec.nchannels);
+    for (const std::string& channel : spec.channelnames) picture.channels.push_back({channel, {}});
+    // Integer formats come scaled to [0, 1]: that is what OpenImageIO does on the way to float.
+    input.read_bands(OIIO::TypeDesc::FLOAT, [&](unsigned, unsigned rows, const std::uint8_t* values) {
+        for (std::size_t c = 0; c < n; ++c)
+            for (std::size_t p = 0; p < std::size_t(rows) * picture.width; ++p) {
+                float v;
+                std::memcpy(&v, values + (p * n + c) * sizeof v, sizeof v);
+                picture.channels[c].values.push_back(v);
+            }
+    });
+    return picture;
+}
+
+Picture read_exr(const std::string& name, std::span<const std::uint8_t> bytes) {
+    const CleanExr clean = clean_exr(name, bytes);
+    Picture picture = read_channels(name, "openexr", clean.bytes);
+    if (clean.x < 0 || clean.y < 0)
+        throw Error(Exit::scene,
+                    "Image " + name + " cannot be used: its data window begins outside its display window.");
+    picture.x = unsigned(clean.x), picture.y = unsigned(clean.y);
+    picture.full_width = clean.display_width, picture.full_height = clean.display_height;
+    picture.metadata = clean.metadata;
+    return picture;
+}
+
+}  // namespace
+
+Picture read_picture(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    const std::vector<std::uint8_t> bytes = read_file(path);
+    const ImageFormat format = sniff(bytes);
+    if (format == ImageFormat::exr) return read_exr(name, bytes);
+    if (format == ImageFormat::hdr) return read_channels(name, "hdr", clean_hdr(name, bytes).bytes);
+    if (format != ImageFormat::png && format != ImageFormat::jpeg)
+        throw Error(Exit::scene, "Image " + name + " is no EXR, PNG, JPEG or Radiance .hdr.");
+    Picture picture =
+        read_channels(name, format == ImageFormat::png ? "png" : "jpeg", clean_image(name, bytes).bytes);
+    if (picture.channels.size() <= 2) {  // grey, with or without alpha
+        const Channel grey = picture.channels[0];
+        picture.channels.insert(picture.channels.begin(), 2, grey);
+    }
+    constexpr const char* names[] = {"R", "G", "B", "A"};
+    for (std::size_t c = 0; c < picture.channels.size(); ++c) picture.channels[c].name = names[c];
+    return picture;
+}
+
+}  // namespace triad
