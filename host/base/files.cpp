@@ -59,6 +59,11 @@ void write_aside(const fs::path& path, const std::function<void(const fs::path&)
         }
     } cleanup{aside};
     if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path.string() + ": it is a folder.");
+    std::error_code ignored;
+    if (const fs::file_status there = fs::status(path, ignored); fs::exists(there) && !fs::is_regular_file(there)) {
+        write(path);  // a device or pipe is written to, not replaced
+        return;
+    }
     {
         Descriptor probe{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
         if (probe.fd < 0) throw Error(Exit::scene, "Cannot write " + path.string() + ": " + reason() + ".");
@@ -79,7 +84,8 @@ void write_file(const fs::path& path, std::string_view bytes) {
             if (n <= 0) break;
             done += static_cast<std::size_t>(n);
         }
-        if (file.fd < 0 || done < bytes.size() || ::fsync(file.fd) != 0)
+        // Pipes and devices cannot be synchronised: EINVAL.
+        if (file.fd < 0 || done < bytes.size() || (::fsync(file.fd) != 0 && errno != EINVAL))
             throw Error(Exit::scene, "Cannot write " + path.string() + ": " + reason() + ".");
     });
 }

@@ -13,7 +13,7 @@ namespace triad {
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t cap = std::uint64_t(16) << 30);
 
 /// Calls write(temporary path in the same folder) and renames the result onto `path`; on any exception the temporary
-/// is removed and an older file at `path` stays as it was. Throws Error(scene) when the folder cannot be written.
+/// is removed and an older file at `path` stays as it was. An existing device or pipe is written to directly. Throws Error(scene) when the folder cannot be written.
 void write_aside(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
 
 /// write_aside of these bytes, checked to the last one (a full disk is an Error(scene)).

@@ -132,8 +132,7 @@ CleanImage clean_jpeg(const std::string& name, Span b) {
 
 /// WebP (RFC 9649): RIFF chunks. Kept are VP8X, ALPH, VP8 and VP8L.
 CleanImage clean_webp(const std::string& name, Span b) {
-    CleanImage clean{ImageFormat::webp, 0, 0, {}};
-    append(clean.bytes, b.first(12));
+    CleanImage clean{ImageFormat::webp, 0, 0, {b.begin(), b.begin() + 12}};
     bool pixels = false;
     for (std::size_t at = 12; b.size() - at >= 8;) {
         const std::size_t length = little32(b, at + 4);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/film.h"
 #include "scene/scene.h"
 
 namespace triad {
@@ -74,5 +75,10 @@ std::vector<std::uint8_t> encode_hdr(const Picture& picture);
 
 /// Reads EXR, PNG, JPEG or HDR as float channels; integer formats are scaled to [0, 1] and stay encoded.
 Picture read_picture(const std::filesystem::path& path);
+
+/// Film files (docs/film.md): equal films give equal bytes. Written aside and renamed.
+void save_film(const std::filesystem::path& path, const Film& film);
+/// Throws Error(scene) for anything that save_film did not write: truncated, changed, of another version.
+Film load_film(const std::filesystem::path& path);
 
 }  // namespace triad

@@ -1,7 +1,5 @@
 #include "io/oiio.h"
 
-#include <OpenImageIO/filesystem.h>
-
 #include <algorithm>
 #include <new>
 

@@ -1,10 +1,12 @@
 #pragma once
 /// OpenImageIO from and to memory, with its failures as Error(scene) sentences. Formats are named, never
 /// guessed: its other readers are not for untrusted bytes.
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
