@@ -1,6 +1,7 @@
 #pragma once
 /// Aliases over GLM. Positions and transforms of the scene are double on the host until they are rebased.
 #include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <limits>

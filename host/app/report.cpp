@@ -1,0 +1,83 @@
+#include "app/report.h"
+
+#include <sys/utsname.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <thread>
+
+#include "base/files.h"
+
+namespace triad {
+namespace {
+
+std::string processor_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+    return "unknown";
+}
+
+Json machine() {
+    utsname system{};
+    ::uname(&system);
+    return {{"system", std::string(system.sysname) + " " + system.release},
+            {"architecture", system.machine},
+            {"processor", processor_name()},
+            {"cores", std::thread::hardware_concurrency()},
+            {"memory_bytes", static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                                 static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE))}};
+}
+
+}  // namespace
+
+Json to_json(const DeviceInfo& d) {
+    return {{"index", d.index},
+            {"name", d.name},
+            {"vendor", d.vendor},
+            {"platform", d.platform},
+            {"type", d.type},
+            {"version", d.version},
+            {"c_version", d.c_version},
+            {"driver", d.driver},
+            {"memory_bytes", d.memory},
+            {"max_allocation_bytes", d.max_allocation},
+            {"local_memory_bytes", d.local_memory},
+            {"compute_units", d.compute_units},
+            {"clock_mhz", d.clock_mhz},
+            {"max_work_group", d.max_work_group},
+            {"fp64", d.fp64},
+            {"images", d.images},
+            {"correctly_rounded", d.correctly_rounded},
+            {"denormals", d.denormals},
+            {"int64_atomics", d.int64_atomics},
+            {"usable", d.usable},
+            {"preferred", d.preferred},
+            {"why_unusable", d.why_unusable}};
+}
+
+void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows) {
+    const Json report = {{"schema", "triad." + command + "/1"},
+                         {"version", TRIAD_VERSION},
+                         {"machine", machine()},
+                         {"device", device ? to_json(*device) : Json()},
+                         {"rows", std::move(rows)}};
+    // Names in files need not be valid UTF-8; they must not stop a report.
+    const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (path != "-") return write_file(path, text);
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw Error(Exit::scene, "Cannot write the report to standard output.");
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+    const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
+    auto value = static_cast<double>(bytes);
+    unsigned unit = 0;
+    for (; value >= 999.95 && unit < 4; ++unit) value /= 1000;
+    char text[32];
+    std::snprintf(text, sizeof text, unit ? "%.1f %s" : "%.0f %s", value, units[unit]);
+    return text;
+}
+
+}  // namespace triad

@@ -1,0 +1,22 @@
+#pragma once
+/// The JSON files of --json: {"schema": "triad.COMMAND/1", "version", "machine", "device", "rows"}.
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "device/device.h"
+
+namespace triad {
+
+using Json = nlohmann::ordered_json;
+
+/// What a reader needs to know about a device.
+Json to_json(const DeviceInfo& device);
+
+/// Writes the report of `command` to `path`, aside and renamed ("-": standard output). Without a device:
+/// null.
+void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows);
+
+/// 1234567 -> "1.2 MB".
+std::string bytes_text(std::uint64_t bytes);
+
+}  // namespace triad

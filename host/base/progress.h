@@ -1,0 +1,48 @@
+#pragma once
+/// How far a long job is, on standard error: a bar on a terminal, one line each 10 s elsewhere, JSON lines on
+/// request.
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace triad {
+
+enum class ProgressStyle { none, bar, lines, json };
+
+/// What a person gets: a bar when standard error is a terminal, else lines; none at log level 0.
+ProgressStyle automatic_progress();
+
+/// How far a render is.
+struct ProgressState {
+    double done = 0;        ///< of the whole, 0 to 1
+    double seconds = 0;     ///< since the work began
+    std::uint64_t spp = 0;  ///< samples per pixel so far
+    double relmse = -1;     ///< current estimate; negative: not known yet
+};
+
+/// Seconds until the end at the pace so far; negative while there is no pace.
+double seconds_left(const ProgressState& state);
+/// "1:02:03" or "2:03", rounded up.
+std::string clock_time(double seconds);
+/// One line of each style, without a line end. `columns` is the width of the terminal.
+std::string bar_text(const ProgressState& state, unsigned columns);
+std::string line_text(const ProgressState& state);
+std::string json_text(const ProgressState& state);
+
+class ProgressDisplay {
+  public:
+    explicit ProgressDisplay(ProgressStyle style) : style_(style) {}
+    ~ProgressDisplay();  ///< clears the bar
+    ProgressDisplay(const ProgressDisplay&) = delete;
+    ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
+    /// Cheap to call often: shows at most four bars a second, one JSON line a second, one line each 10 s.
+    void update(const ProgressState& state);
+
+  private:
+    ProgressStyle style_;
+    bool bar_shown_ = false;
+    std::chrono::steady_clock::time_point next_{};
+};
+
+}  // namespace triad

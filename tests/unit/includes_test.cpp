@@ -1,0 +1,120 @@
+// The walls of docs/architecture.md: includes go down only, and packages stay behind the folder that owns
+// them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Names = std::set<std::string>;
+
+/// Which folders of host/ a folder may include from, beside itself.
+const std::map<std::string, Names> below = {
+    {"base", {}},
+    {"device", {"base"}},
+    {"scene", {"base"}},
+    {"io", {"scene", "base"}},
+    {"bvh", {"base"}},
+    {"panel", {"base"}},
+    {"render", {"bvh", "device", "panel", "scene", "base"}},
+    {"measure", {"render", "bvh", "device", "panel", "scene", "base"}},
+    {"app", {"measure", "render", "io", "bvh", "device", "panel", "scene", "base"}},
+};
+
+/// Packages with one owner: how their headers begin.
+const std::map<std::string, std::string> owners = {{"CL/", "device"},      {"tiny_gltf", "io"},
+                                                   {"OpenImageIO/", "io"}, {"CLI/", "app"},
+                                                   {"xxhash", "base"},     {"glm/", "base"}};
+
+const Names kernel_families = {"traversal", "shading", "photon", "subpixel"};
+
+std::vector<std::string> includes_of(const std::string& text) {
+    static const std::regex pattern(R"(^[ \t]*#[ \t]*include[ \t]*[<"]([^">]+)[">])", std::regex::multiline);
+    std::vector<std::string> names;
+    for (std::sregex_iterator match(text.begin(), text.end(), pattern), end; match != end; ++match)
+        names.push_back((*match)[1]);
+    return names;
+}
+
+std::string first_folder(const std::string& path) {
+    const auto slash = path.find('/');
+    return slash == std::string::npos ? "" : path.substr(0, slash);
+}
+
+/// What is wrong with the includes of one file; `path` is relative to the root of the repository.
+std::vector<std::string> violations(const std::string& path, const std::string& text) {
+    std::vector<std::string> found;
+    const std::string top = first_folder(path), folder = first_folder(path.substr(top.size() + 1));
+    for (const std::string& include : includes_of(text)) {
+        const std::string target = first_folder(include);
+        bool wrong = include.starts_with("../") || include.starts_with("host/");
+        if (top == "host") {
+            if (const auto rule = below.find(folder); rule == below.end())
+                wrong = true;
+            else if (below.contains(target) && target != folder && !rule->second.contains(target))
+                wrong = true;
+            if (target == "kernels" && include != "kernels/types.h") wrong = true;
+            for (const auto& [prefix, owner] : owners)
+                if (include.starts_with(prefix) && folder != owner) wrong = true;
+        } else if (top == "kernels") {
+            const bool header = path.ends_with(".h");
+            if (header && kernel_families.contains(target) && target != folder) wrong = true;
+            if (below.contains(target)) wrong = true;
+        }
+        if (wrong) found.push_back(path + " includes " + include);
+    }
+    return found;
+}
+
+std::vector<std::string> violations_of_tree(const fs::path& root) {
+    std::vector<std::string> found;
+    std::size_t files = 0;
+    for (const char* top : {"host", "kernels"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+            const std::string extension = entry.path().extension().string();
+            if (extension != ".h" && extension != ".cpp" && extension != ".cl") continue;
+            std::ifstream file(entry.path());
+            std::stringstream text;
+            text << file.rdbuf();
+            for (auto& violation : violations(fs::relative(entry.path(), root).generic_string(), text.str()))
+                found.push_back(std::move(violation));
+            ++files;
+        }
+    }
+    EXPECT_GT(files, 10u) << "looked in the wrong place: " << root;
+    return found;
+}
+
+}  // namespace
+
+TEST(Includes, go_down_only) {
+    std::string all;
+    for (const auto& violation : violations_of_tree(TRIAD_SOURCE_DIR)) all += violation + "\n";
+    EXPECT_EQ(all, "");
+}
+
+TEST(Includes, rules_catch_what_they_forbid) {
+    const auto bad = [](const char* path, const char* text) { return !violations(path, text).empty(); };
+    EXPECT_TRUE(bad("host/base/a.h", "#include \"device/device.h\"\n"));
+    EXPECT_TRUE(bad("host/scene/a.cpp", "x\n  #  include <CL/cl.h>\n"));
+    EXPECT_TRUE(bad("host/render/a.cpp", "#include \"io/io.h\"\n"));
+    EXPECT_TRUE(bad("host/io/a.cpp", "#include \"device/device.h\"\n"));
+    EXPECT_TRUE(bad("host/render/a.cpp", "#include <OpenImageIO/imageio.h>\n"));
+    EXPECT_TRUE(bad("host/app/a.cpp", "#include <tiny_gltf.h>\n"));
+    EXPECT_TRUE(bad("host/bvh/a.cpp", "#include \"../device/device.h\"\n"));
+    EXPECT_TRUE(bad("host/bvh/a.cpp", "#include \"kernels/features.h\"\n"));
+    EXPECT_TRUE(bad("host/extra/a.cpp", "#include <vector>\n"));
+    EXPECT_TRUE(bad("kernels/shading/a.h", "#include \"traversal/intersect.h\"\n"));
+    EXPECT_TRUE(bad("kernels/common/a.h", "#include \"shading/bsdf.h\"\n"));
+    EXPECT_FALSE(bad("kernels/shading/a.cl", "#include \"traversal/intersect.h\"\n#include \"types.h\"\n"));
+    EXPECT_FALSE(bad("host/render/a.cpp",
+                     "#include \"device/device.h\"\n#include \"kernels/types.h\"\n#include <vector>\n"));
+    EXPECT_FALSE(bad("host/app/a.cpp", "// no #include \"x\" here: device/device.h\n#include \"io/io.h\"\n"));
+}
