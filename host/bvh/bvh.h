@@ -1,5 +1,6 @@
 #pragma once
-/// Bounding volume hierarchies in the wide layout of kernels/types.h: binned SAH on all cores, collapsed to eight children.
+/// Bounding volume hierarchies in the wide layout of kernels/types.h: binned SAH on all cores, collapsed to
+/// eight children.
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,13 +10,15 @@
 
 namespace triad {
 
-/// Trees over one pool of nodes and blocks, so that instances of many meshes share the two arrays of the device.
+/// Trees over one pool of nodes and blocks, so that instances of many meshes share the two arrays of the
+/// device.
 struct BvhPool {
     std::vector<dev::BvhNode> nodes;
     std::vector<dev::TriangleBlock> blocks;
 };
 
-/// What a tree is built over. Corners in the space of the tree; primitive = index into the scene's Triangle array.
+/// What a tree is built over. Corners in the space of the tree; primitive = index into the scene's Triangle
+/// array.
 struct BvhTriangle {
     vec3 corner[3];
     std::uint32_t primitive;
@@ -28,10 +31,11 @@ struct BvhInstance {
     std::uint32_t instance;
 };
 
-/// Builds one tree, appends it to `pool` and returns the index of its root node. Deterministic, whatever the number of
-/// threads. Exact duplicates (the same three corners) keep the lowest primitive only. `origin_reach` is the largest
-/// coordinate that a ray origin may have in this space: boxes are padded for rounding at that magnitude.
-/// Precondition: corners are finite. An empty tree is a root whose children are all BVH_EMPTY.
+/// Builds one tree, appends it to `pool` and returns the index of its root node. Deterministic, whatever the
+/// number of threads. Exact duplicates (the same three corners) keep the lowest primitive only.
+/// `origin_reach` is the largest coordinate that a ray origin may have in this space: boxes are padded for
+/// rounding at that magnitude. Precondition: corners are finite. An empty tree is a root whose children are
+/// all BVH_EMPTY.
 std::uint32_t build_bvh(std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances,
                         float origin_reach, BvhPool& pool);
 
