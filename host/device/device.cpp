@@ -12,6 +12,10 @@ using opencl::own;
 using opencl::readable_bytes;
 using opencl::Where;
 
+namespace {
+constexpr std::size_t default_local = 64;
+}
+
 namespace opencl {
 namespace {
 
@@ -79,7 +83,7 @@ Device Device::open(const Settings& settings) {
     state->queue = own(queue, clReleaseCommandQueue, state->core);
 
     Device device(std::move(state));
-    device.set_preferred_local(64);
+    device.set_preferred_local(load_tuned_local(found.info).value_or(default_local));
     return device;
 }
 

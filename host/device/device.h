@@ -51,6 +51,12 @@ struct DeviceList {
 /// as unusable, or as a problem.
 DeviceList list_devices();
 
+/// Work-group size that an earlier search on this device and driver found best for divergent kernels; none
+/// when there was no search for the kernels as they are now. Kept in the cache folder.
+std::optional<std::size_t> load_tuned_local(const DeviceInfo& device);
+/// Keeps the result of such a search. A cache folder that cannot be written costs a warning only.
+void store_tuned_local(const DeviceInfo& device, std::size_t local);
+
 /// An error of the OpenCL layer: exit code 5 (4 when memory ran out). what() has the call, the code by name
 /// and number, device, driver, program, kernel, build options and the whole build log, as far as they apply.
 class DeviceError : public Error {

@@ -84,7 +84,7 @@ struct DeviceState {
     std::map<std::pair<std::string, std::string>, Program> programs;    ///< by text and options
     std::vector<std::pair<std::string, std::shared_ptr<void>>> events;  ///< launches not yet in `times`
     std::map<std::string, KernelTime> times;
-    std::size_t preferred_local = 64;
+    std::size_t preferred_local = 1;
     double compile_seconds = 0;
 
     cl_context cl() const { return static_cast<cl_context>(context.get()); }

@@ -1,6 +1,7 @@
-// The layer over OpenCL: memory, programs, launches, and what its errors say.
+// The layer over OpenCL: memory, launches, programs, and what its errors say.
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <numeric>
 
 #include "device_fixture.h"
@@ -17,16 +18,35 @@ __kernel void add_to(__global uint* values, __global const uint* optional, uint 
 }
 )";
 
-TEST(Device, runs_a_kernel_over_a_count_that_is_no_multiple_of_the_group) {
+Kernel add_kernel(Device& device) { return device.build_source("add.cl", add_source).kernel("add_to"); }
+
+/// What `call` throws, or a failure.
+template <class Call>
+DeviceError error_of(Call call) {
+    try {
+        call();
+    } catch (const DeviceError& error) {
+        return error;
+    }
+    ADD_FAILURE() << "no DeviceError";
+    return {Exit::done, 0, ""};
+}
+
+bool says(const std::exception& error, const std::string& part) {
+    return std::string(error.what()).find(part) != std::string::npos;
+}
+
+TEST(Device, runs_a_count_that_is_no_multiple_of_the_group) {
     Device& device = test_device();
     std::vector<std::uint32_t> values(1001);
     std::iota(values.begin(), values.end(), 0u);
     const Buffer buffer = device.upload(values);
-    const Kernel kernel = device.build_source("add.cl", add_source).kernel("add_to");
+    const Kernel kernel = add_kernel(device);
     const Arguments arguments =
         Arguments().add(buffer).add(Buffer{}).add(std::uint32_t(7)).add(std::uint32_t(1001));
     device.run(kernel, arguments, values.size());
     device.run(kernel, arguments, values.size(), 16);
+    device.run(kernel, arguments, 0);
     device.finish();
     const auto result = device.download<std::uint32_t>(buffer);
     for (std::uint32_t i = 0; i < result.size(); ++i) ASSERT_EQ(result[i], i + 14);
@@ -34,16 +54,26 @@ TEST(Device, runs_a_kernel_over_a_count_that_is_no_multiple_of_the_group) {
 
 TEST(Device, passes_an_optional_buffer) {
     Device& device = test_device();
-    const std::vector<std::uint32_t> zeros(64), threes(64, 3);
-    const Buffer values = device.upload(zeros), others = device.upload(threes);
-    device.run(device.build_source("add.cl", add_source).kernel("add_to"),
+    const Buffer values = device.upload(std::vector<std::uint32_t>(64, 0));
+    const Buffer others = device.upload(std::vector<std::uint32_t>(64, 3));
+    device.run(add_kernel(device),
                Arguments().add(values).add(others).add(std::uint32_t(1)).add(std::uint32_t(64)), 64);
     for (std::uint32_t value : device.download<std::uint32_t>(values)) ASSERT_EQ(value, 4u);
 }
 
+TEST(Device, keeps_arguments_alive_until_the_launch) {
+    Device& device = test_device();
+    const Buffer values = device.upload(std::vector<std::uint32_t>(64, 0));
+    Arguments arguments = Arguments().add(values);
+    arguments.add(device.upload(std::vector<std::uint32_t>(64, 5)));
+    arguments.add(Arguments().add(std::uint32_t(1)).add(std::uint32_t(64)));
+    device.run(add_kernel(device), arguments, 64);
+    for (std::uint32_t value : device.download<std::uint32_t>(values)) ASSERT_EQ(value, 6u);
+}
+
 TEST(Device, writes_reads_and_clears_parts) {
     Device& device = test_device();
-    const Buffer buffer = device.allocate(16);
+    const Buffer buffer = device.upload(std::vector<std::uint32_t>(4, 9));
     device.fill_zero(buffer);
     const std::uint32_t five = 5;
     device.write(buffer, &five, sizeof five, 8);
@@ -51,6 +81,120 @@ TEST(Device, writes_reads_and_clears_parts) {
     std::uint32_t back = 0;
     device.read(buffer, &back, sizeof back, 8);
     EXPECT_EQ(back, 5u);
+    EXPECT_FALSE(device.upload(std::vector<float>{}));
+    EXPECT_FALSE(device.allocate(0));
+}
+
+TEST(Device, builds_equal_text_and_options_once) {
+    Device& device = test_device();
+    const std::string source = "__kernel void once(__global uint* out) { out[0] = VALUE; }";
+    device.build_source("once.cl", source, {{"VALUE", "1"}});
+    const double before = device.compile_seconds();
+    const Program again = device.build_source("once.cl", source, {{"VALUE", "1"}});
+    EXPECT_EQ(device.compile_seconds(), before);
+    const Program other = device.build_source("once.cl", source, {{"VALUE", "2"}});
+    EXPECT_GT(device.compile_seconds(), before);
+    const Buffer out = device.allocate(4);
+    for (const auto& [program, value] : {std::pair(again, 1u), std::pair(other, 2u)}) {
+        device.run(program.kernel("once"), Arguments().add(out), 1, 1);
+        EXPECT_EQ(device.download<std::uint32_t>(out).front(), value);
+    }
+}
+
+TEST(Device, times_kernels_on_request_only) {
+    Device profiled = Device::open({.selector = std::to_string(test_device().info().index), .profile = true});
+    const Buffer values = profiled.upload(std::vector<std::uint32_t>(64, 0));
+    const Arguments arguments =
+        Arguments().add(values).add(Buffer{}).add(std::uint32_t(1)).add(std::uint32_t(64));
+    for (int i = 0; i < 3; ++i) profiled.run(add_kernel(profiled), arguments, 64);
+    const auto times = profiled.times();
+    ASSERT_EQ(times.size(), 1u);
+    EXPECT_EQ(times.at("add_to").launches, 3u);
+    EXPECT_GT(times.at("add_to").seconds, 0);
+    EXPECT_EQ(profiled.times().at("add_to").launches, 3u);
+    EXPECT_TRUE(test_device().times().empty());
+}
+
+TEST(Device, holds_a_cpu_to_one_thread) {
+    const DeviceInfo& whole = test_device().info();
+    Device part = Device::open({.selector = std::to_string(whole.index), .threads = 1});
+    if (whole.type != "cpu") {
+        EXPECT_EQ(part.info().compute_units, whole.compute_units);
+        return;
+    }
+    ASSERT_EQ(part.info().compute_units, 1u);
+    const Kernel kernel = part.build_source("spin.cl", R"(
+        __kernel void spin(__global float* out, uint rounds) {
+            float x = get_global_id(0);
+            for (uint i = 0; i < rounds; ++i) x = fma(x, 0.99f, 1.0f);
+            out[get_global_id(0)] = x;
+        })")
+                              .kernel("spin");
+    const std::size_t items = 256;
+    const Buffer out = part.allocate(items * sizeof(float));
+    const auto seconds = [](clockid_t clock) {
+        timespec now{};
+        clock_gettime(clock, &now);
+        return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+    };
+    // Warmed up, then long enough that a start of threads does not show; more load on the machine only lowers
+    // the ratio.
+    double cpu = 0, wall = 0;
+    for (std::uint32_t rounds = 1; wall < 0.3; rounds = rounds < 100000 ? rounds * 100 : rounds * 2) {
+        const double cpu_start = seconds(CLOCK_PROCESS_CPUTIME_ID), wall_start = seconds(CLOCK_MONOTONIC);
+        part.run(kernel, Arguments().add(out).add(rounds), items, 16);
+        part.finish();
+        cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu_start, wall = seconds(CLOCK_MONOTONIC) - wall_start;
+    }
+    EXPECT_LT(cpu / wall, 1.3);
+}
+
+TEST(DeviceError, of_a_broken_program_names_our_file_and_line) {
+    Device& device = test_device();
+    const DeviceError error = error_of([&] {
+        device.build_source("broken.cl",
+                            "#include \"common/language.h\"\n"
+                            "__kernel void broken(__global uint* out) {\n"
+                            "    out[0] = undeclared_name;\n"
+                            "}\n",
+                            {{"SOME_OPTION", "1"}});
+    });
+    EXPECT_EQ(error.exit(), Exit::device);
+    EXPECT_EQ(error.code(), -11);
+    for (const std::string& part :
+         {std::string("clBuildProgram"), std::string("CL_BUILD_PROGRAM_FAILURE (-11)"), device.info().name,
+          device.info().driver, std::string("program broken.cl"), std::string("-D SOME_OPTION=1"),
+          std::string("kernels/broken.cl:3"), std::string("undeclared_name")})
+        EXPECT_TRUE(says(error, part)) << part << " is missing in: " << error.what();
+}
+
+TEST(DeviceError, names_a_missing_kernel) {
+    const Program program = test_device().build_source("add.cl", add_source);
+    const DeviceError error = error_of([&] { program.kernel("subtract"); });
+    EXPECT_TRUE(says(error, "Program add.cl has no kernel subtract.")) << error.what();
+}
+
+TEST(DeviceError, of_arguments_that_do_not_fit_the_kernel) {
+    Device& device = test_device();
+    const Kernel kernel = add_kernel(device);
+    const Buffer buffer = device.allocate(256);
+    // A launch with all arguments first: the kernel object remembers them.
+    device.run(kernel, Arguments().add(buffer).add(Buffer{}).add(std::uint32_t(1)).add(std::uint32_t(1)), 1);
+    const DeviceError few = error_of([&] { device.run(kernel, Arguments().add(buffer).add(Buffer{}), 1); });
+    EXPECT_TRUE(says(few, "takes 4 arguments, not 2")) << few.what();
+    const DeviceError wide = error_of(
+        [&] { device.run(kernel, Arguments().add(buffer).add(Buffer{}).add(1.0).add(std::uint32_t(1)), 1); });
+    EXPECT_TRUE(says(wide, "Argument 2 of kernel add_to")) << wide.what();
+}
+
+TEST(DeviceError, of_too_large_a_buffer_means_memory_and_the_device_stays_usable) {
+    Device& device = test_device();
+    const std::uint64_t most = device.info().max_allocation;
+    ASSERT_GT(most, 0u);
+    const DeviceError error = error_of([&] { device.allocate(most + 1); });
+    EXPECT_EQ(error.exit(), Exit::memory);
+    EXPECT_TRUE(says(error, "Out of device memory")) << error.what();
+    EXPECT_TRUE(device.allocate(64));
 }
 
 }  // namespace
