@@ -32,7 +32,7 @@ cl_device_id restrict_to(unsigned threads, DeviceState& state) {
                             " threads; leave --threads out."};
     state.core->check("clCreateSubDevices", clCreateSubDevices(state.device, by_counts, 1, &part, nullptr),
                       where);
-    state.partition = own(part, clReleaseDevice, state.core);
+    // Never released: PoCL 3.1 uses it in its own threads after the last queue, context and event are gone.
     info.compute_units = threads;
     return part;
 }

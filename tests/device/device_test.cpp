@@ -86,7 +86,7 @@ TEST(Device, writes_reads_and_clears_parts) {
 }
 
 TEST(Device, builds_equal_text_and_options_once) {
-    Device& device = test_device();
+    Device device = Device::open({.selector = std::to_string(test_device().info().index)});
     const std::string source = "__kernel void once(__global uint* out) { out[0] = VALUE; }";
     device.build_source("once.cl", source, {{"VALUE", "1"}});
     const double before = device.compile_seconds();
