@@ -24,7 +24,11 @@ bool has(Span b, std::size_t at, std::string_view text) {
            std::memcmp(b.data() + at, text.data(), text.size()) == 0;
 }
 
-void append(std::vector<std::uint8_t>& to, Span part) { to.insert(to.end(), part.begin(), part.end()); }
+void append(std::vector<std::uint8_t>& to, Span part) {
+    const std::size_t at = to.size();
+    to.resize(at + part.size());
+    std::copy(part.begin(), part.end(), to.begin() + std::ptrdiff_t(at));
+}
 
 [[noreturn]] void refuse(const std::string& name, const std::string& why) {
     throw Error(Exit::scene, "Image " + name + " cannot be used: " + why + ".");
@@ -130,8 +134,9 @@ CleanImage clean_jpeg(const std::string& name, Span b) {
     return clean;
 }
 
-/// WebP (RFC 9649): RIFF chunks. Kept are VP8X, ALPH, VP8 and VP8L.
-CleanImage clean_webp(const std::string& name, Span b) {
+/// WebP (RFC 9649): RIFF chunks. Kept are VP8X, ALPH, VP8 and VP8L; without alpha only VP8, or VP8L with its
+/// alpha hint off.
+CleanImage clean_webp(const std::string& name, Span b, bool with_alpha) {
     CleanImage clean{ImageFormat::webp, 0, 0, {b.begin(), b.begin() + 12}};
     bool pixels = false;
     for (std::size_t at = 12; b.size() - at >= 8;) {
@@ -153,11 +158,12 @@ CleanImage clean_webp(const std::string& name, Span b) {
                 refuse(name, "its WebP headers disagree about its size");
             clean.width = width, clean.height = height;
         }
-        if (extended || lossy || lossless || has(b, at, "ALPH")) {
+        if (lossy || lossless || (with_alpha && (extended || has(b, at, "ALPH")))) {
             const std::size_t start = clean.bytes.size();
             append(clean.bytes, b.subspan(at, 8));
             append(clean.bytes, data);
             if (length & 1) clean.bytes.push_back(0);
+            if (lossless && !with_alpha) clean.bytes[start + 12] &= 0xef;
             if (extended)
                 clean.bytes[start + 8] &= 0x10;  // of the flags only alpha: no ICC, EXIF, XMP, animation
         }
@@ -188,11 +194,13 @@ CleanImage clean_image(const std::string& name, Span b) {
         case ImageFormat::jpeg:
             return clean_jpeg(name, b);
         case ImageFormat::webp:
-            return clean_webp(name, b);
+            return clean_webp(name, b, true);
         default:
             refuse(name, "it is no PNG, JPEG or WebP");
     }
 }
+
+CleanImage clean_webp_colour(const std::string& name, Span b) { return clean_webp(name, b, false); }
 
 /// Radiance picture format (Ward): text lines up to an empty one, then "-Y height +X width".
 CleanImage clean_hdr(const std::string& name, Span b) {

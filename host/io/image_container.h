@@ -28,6 +28,10 @@ struct CleanImage {
 /// the three, or announces more than max_image_pixels or more pixels than its bytes can hold.
 CleanImage clean_image(const std::string& name, std::span<const std::uint8_t> bytes);
 
+/// WebP bytes without their alpha: OpenImageIO multiplies WebP colours by alpha whatever it is told, so that
+/// colours are decoded apart.
+CleanImage clean_webp_colour(const std::string& name, std::span<const std::uint8_t> bytes);
+
 /// Checks the header of Radiance .hdr bytes; the bytes are kept as they are. Throws Error(scene).
 CleanImage clean_hdr(const std::string& name, std::span<const std::uint8_t> bytes);
 

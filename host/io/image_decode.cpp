@@ -1,5 +1,5 @@
 /// PNG, JPEG and WebP bytes to RGBA texels.
-#include <cstring>
+#include <algorithm>
 
 #include "base/error.h"
 #include "io/image_container.h"
@@ -19,6 +19,21 @@ void expand(const T* from, unsigned channels, std::size_t pixels, T* to) {
         to[2] = grey ? from[0] : from[2];
         to[3] = channels == 2 ? from[1] : channels == 4 ? from[3] : T(~T(0));
     }
+}
+
+/// Replaces the colours of a WebP image with alpha, which come multiplied by it, by the stored ones.
+void restore_webp_colours(Image& image, const std::vector<std::uint8_t>& bytes) {
+    const CleanImage colour = clean_webp_colour(image.name, bytes);
+    oiio::Input input(image.name, "webp", colour.bytes);
+    const unsigned n = unsigned(input.spec().nchannels);
+    if (n < 3 || unsigned(input.spec().width) != image.width || unsigned(input.spec().height) != image.height)
+        throw Error(Exit::scene,
+                    "Image " + image.name + " cannot be read: its colours and its alpha differ in size.");
+    input.read_bands(OIIO::TypeDesc::UINT8, [&](unsigned first, unsigned rows, const std::uint8_t* values) {
+        std::uint8_t* to = image.texels.data() + std::size_t(first) * image.width * 4;
+        for (std::size_t i = 0; i < std::size_t(rows) * image.width; ++i, values += n, to += 4)
+            std::copy_n(values, 3, to);
+    });
 }
 
 }  // namespace
@@ -48,6 +63,7 @@ Image decode_image(const std::string& name, const std::vector<std::uint8_t>& byt
             expand(values, unsigned(spec.nchannels), pixels, to);
         }
     });
+    if (clean.format == ImageFormat::webp && spec.nchannels == 4) restore_webp_colours(image, bytes);
     return image;
 }
 

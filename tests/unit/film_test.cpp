@@ -1,0 +1,192 @@
+// The film as integers, and its file.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "io/io.h"
+#include "scene/film.h"
+#include "temporary_folder.h"
+
+using namespace triad;
+
+namespace {
+
+/// What a renderer would make: sample s of pixel p has a value that depends on (p, s) alone.
+Film synthetic(SampleRange range, unsigned bins_x = 1, unsigned bins_y = 1) {
+    Film film;
+    film.full_width = 7, film.full_height = 5;
+    film.x = 1, film.y = 2, film.width = 4, film.height = 3;
+    film.bins_x = bins_x, film.bins_y = bins_y;
+    film.quanta_log2 = 30;
+    const std::size_t bins = film.bins();
+    film.sums.assign(film.pixels() * bins * 4, 0);
+    film.half_sums.assign(film.pixels() * 3, 0);
+    film.samples.assign(film.pixels(), std::uint32_t(range.end - range.begin));
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        for (std::uint64_t s = range.begin; s < range.end; ++s)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const auto value = std::int64_t((p * 7919 + s * 104729 + c * 1299709) % 1000003) << 12;
+                film.sums[(p * bins + s % bins) * 4 + c] += value;
+                if (c < 3 && ((s / bins) & 1) == 0) film.half_sums[p * 3 + c] += value;
+            }
+    film.ranges = {range};
+    film.counters = {range.end - range.begin, 1, 0, 2, 3};
+    film.scene = "00112233445566778899aabbccddeeff";
+    film.settings = "ffeeddccbbaa99887766554433221100";
+    film.settings_text = "{\"seed\": 1}";
+    film.devices = {"some device"};
+    return film;
+}
+
+std::vector<std::uint8_t> bytes_of(const Film& film, const TemporaryFolder& folder) {
+    save_film(folder / "bytes.film", film);
+    return read_file(folder / "bytes.film");
+}
+
+template <class Action>
+std::string sentence_of(Exit exit, Action action) {
+    try {
+        action();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), exit) << error.what();
+        return error.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+}
+
+void expect_contains(const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+}  // namespace
+
+TEST(Film, three_uneven_ranges_in_any_order_give_the_bytes_of_one_run) {
+    const TemporaryFolder folder;
+    std::vector<Film> parts{synthetic({0, 5}, 3, 3), synthetic({5, 6}, 3, 3), synthetic({6, 37}, 3, 3)};
+    Film whole = synthetic({0, 37}, 3, 3);
+    whole.counters = {37, 3, 0, 6, 9};
+    const auto expected = bytes_of(whole, folder);
+    std::array<std::size_t, 3> order{0, 1, 2};
+    do {
+        const std::vector<Film> shuffled{parts[order[0]], parts[order[1]], parts[order[2]]};
+        EXPECT_EQ(bytes_of(merge(shuffled), folder), expected);
+        const std::vector<Film> later{merge(std::vector<Film>{shuffled[0], shuffled[1]}), shuffled[2]};
+        EXPECT_EQ(bytes_of(merge(later), folder), expected);
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(Film, merging_the_same_samples_twice_is_refused_and_named) {
+    const std::vector<Film> parts{synthetic({0, 8}), synthetic({6, 9})};
+    expect_contains(sentence_of(Exit::incomplete, [&] { merge(parts); }), "6:8");
+}
+
+TEST(Film, merging_different_pictures_is_refused) {
+    for (const auto& [change, word] : std::initializer_list<std::pair<void (*)(Film&), const char*>>{
+             {[](Film& f) { f.scene = "x"; }, "scene"},
+             {[](Film& f) { f.settings = "x"; }, "settings"},
+             {[](Film& f) { f.quanta_log2 = 20; }, "quantum"},
+             {[](Film& f) { f.x = 0; }, "crop"},
+             {[](Film& f) { f.full_width = 8; }, "size"}}) {
+        std::vector<Film> parts{synthetic({0, 2}), synthetic({2, 4})};
+        change(parts[1]);
+        expect_contains(sentence_of(Exit::scene, [&] { merge(parts); }), word);
+    }
+}
+
+TEST(Film, devices_are_sorted_and_unique_after_a_merge) {
+    std::vector<Film> parts{synthetic({0, 2}), synthetic({2, 4}), synthetic({4, 5})};
+    parts[0].devices = {"b"}, parts[1].devices = {"a"}, parts[2].devices = {"b"};
+    EXPECT_EQ(merge(parts).devices, (std::vector<std::string>{"a", "b"}));
+}
+
+TEST(Film, holes_are_what_is_missing_below_the_end) {
+    const std::vector<Film> parts{synthetic({2, 5}), synthetic({7, 8})};
+    const Film film = merge(parts);
+    EXPECT_EQ(film.sample_count(), 4u);
+    EXPECT_EQ(holes(film, 10), (std::vector<SampleRange>{{0, 2}, {5, 7}, {8, 10}}));
+    EXPECT_EQ(holes(film, 6), (std::vector<SampleRange>{{0, 2}, {5, 6}}));
+    EXPECT_EQ(holes(film, 1), (std::vector<SampleRange>{{0, 1}}));
+    EXPECT_TRUE(holes(synthetic({0, 4}), 4).empty());
+}
+
+TEST(Film, pixel_mean_is_the_mean_of_its_samples) {
+    const Film film = synthetic({0, 18}, 3, 3);
+    double sum = 0;
+    for (std::uint64_t s = 0; s < 18; ++s)
+        sum += double((5 * 7919 + s * 104729 + 2 * 1299709) % 1000003) * 4096.0;
+    EXPECT_DOUBLE_EQ(pixel_mean(film, 5)[2], sum / 18.0 / double(1u << 30));
+}
+
+TEST(Film, pixel_mean_without_samples_is_black) {
+    Film film = synthetic({0, 1});
+    film.samples[3] = 0;
+    EXPECT_EQ(pixel_mean(film, 3), (std::array<double, 4>{}));
+}
+
+TEST(FilmFile, comes_back_as_it_was) {
+    const TemporaryFolder folder;
+    const Film film = merge(std::vector<Film>{synthetic({0, 5}, 3, 1), synthetic({9, 40}, 3, 1)});
+    save_film(folder / "a.film", film);
+    const Film back = load_film(folder / "a.film");
+    EXPECT_EQ(bytes_of(back, folder), read_file(folder / "a.film"));
+    EXPECT_EQ(back.sums, film.sums);
+    EXPECT_EQ(back.half_sums, film.half_sums);
+    EXPECT_EQ(back.samples, film.samples);
+    EXPECT_EQ(back.ranges, film.ranges);
+    EXPECT_EQ(back.counters, film.counters);
+    EXPECT_EQ(back.settings_text, film.settings_text);
+    EXPECT_EQ(back.quanta_log2, 30);
+    EXPECT_EQ(back.bins_x, 3u);
+    EXPECT_EQ(back.bins_y, 1u);
+    EXPECT_EQ(back.x, 1u);
+    EXPECT_EQ(back.height, 3u);
+}
+
+TEST(FilmFile, every_truncation_is_refused) {
+    const TemporaryFolder folder;
+    const auto bytes = bytes_of(synthetic({0, 4}), folder);
+    const std::string text(bytes.begin(), bytes.end());
+    for (std::size_t length = 0; length < text.size(); length += 1 + length / 16) {
+        write_file(folder / "cut.film", std::string_view(text).substr(0, length));
+        expect_contains(sentence_of(Exit::scene, [&] { load_film(folder / "cut.film"); }), "cut.film");
+    }
+}
+
+TEST(FilmFile, every_changed_byte_is_refused) {
+    const TemporaryFolder folder;
+    const auto bytes = bytes_of(synthetic({0, 4}), folder);
+    for (std::size_t at = 0; at < bytes.size(); at += 17) {
+        std::string text(bytes.begin(), bytes.end());
+        text[at] = char(text[at] ^ 0x10);
+        write_file(folder / "changed.film", text);
+        sentence_of(Exit::scene, [&] { load_film(folder / "changed.film"); });
+    }
+}
+
+TEST(FilmFile, absurd_sizes_are_refused_before_memory_is_asked_for) {
+    const TemporaryFolder folder;
+    const auto bytes = bytes_of(synthetic({0, 4}), folder);
+    std::string text(bytes.begin(), bytes.end());
+    const std::string from = "\"crop\":[1,2,4,3]", size = "\"size\":[7,5]";
+    ASSERT_NE(text.find(from), std::string::npos);
+    text.replace(text.find(from), from.size(), "\"crop\":[1,2,1000000,1000000]");
+    text.replace(text.find(size), size.size(), "\"size\":[1048576,1048576]");
+    std::uint64_t length;
+    std::memcpy(&length, text.data() + 16, sizeof length);
+    length += text.size() - bytes.size();
+    std::memcpy(text.data() + 16, &length, sizeof length);
+    write_file(folder / "huge.film", text);
+    expect_contains(sentence_of(Exit::scene, [&] { load_film(folder / "huge.film"); }), "bytes of sums");
+}
+
+TEST(FilmFile, a_full_disk_is_a_sentence_and_leaves_the_device_alone) {
+    if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP();
+    expect_contains(sentence_of(Exit::scene, [] { save_film("/dev/full", synthetic({0, 4})); }), "/dev/full");
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
