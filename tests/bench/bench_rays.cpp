@@ -1,0 +1,294 @@
+// triad-bench-rays: rays per second of Triad on one device, beside Embree on the same rays of the same
+// scenes.
+//   triad-bench-rays [--scene NAME] [--device SEL] [--threads N] [--local N] [--size N] [--rounds N] [--json
+//   FILE]
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <thread>
+
+#include "base/parallel_for.h"
+#include "clock.h"
+#include "embree_tracer.h"
+#include "triad_tracer.h"
+
+using namespace triad;
+using namespace triad::bench;
+
+namespace {
+
+struct Options {
+    std::vector<std::string> scenes{"cornell", "room", "landscape"};
+    std::string device, json;
+    unsigned threads = 1, size = 768, rounds = 7;
+    std::size_t local = 0;
+};
+
+Options parse(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; i += 2) {
+        const std::string name = argv[i];
+        if (i + 1 >= argc) throw Error(Exit::usage, name + " needs a value.");
+        const std::string value = argv[i + 1];
+        const auto number = [&] {
+            try {
+                return unsigned(std::stoul(value));
+            } catch (const std::exception&) {
+                throw Error(Exit::usage, name + " needs a number, not '" + value + "'.");
+            }
+        };
+        if (name == "--scene")
+            options.scenes = {value};
+        else if (name == "--device")
+            options.device = value;
+        else if (name == "--threads")
+            options.threads = number();
+        else if (name == "--local")
+            options.local = number();
+        else if (name == "--size")
+            options.size = std::max(8u, number() / 8 * 8);
+        else if (name == "--rounds")
+            options.rounds = std::max(1u, number());
+        else if (name == "--clock")
+            use_cpu_clock = value == "cpu";
+        else if (name == "--json")
+            options.json = value;
+        else
+            throw Error(Exit::usage, "There is no option " + name +
+                                         "; there are --scene, --device, --threads, --local, --size, "
+                                         "--rounds, --clock and --json.");
+    }
+    return options;
+}
+
+dev::Ray make_ray(const vec3& origin, const vec3& direction, float t_max, std::uint32_t skip) {
+    dev::Ray ray{};
+    for (int a = 0; a < 3; ++a) ray.origin[a] = origin[a], ray.direction[a] = direction[a];
+    ray.t_max = t_max;
+    ray.skip_instance = skip == TRIAD_NONE ? TRIAD_NONE : 0;
+    ray.skip_primitive = skip;
+    return ray;
+}
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// One ray per pixel in tiles of 8 x 8.
+std::vector<dev::Ray> primary_rays(const BenchScene& scene, unsigned size) {
+    const vec3 forward = glm::normalize(scene.target - scene.eye);
+    const vec3 right = glm::normalize(glm::cross(forward, vec3(0, 1, 0))), up = glm::cross(right, forward);
+    std::vector<dev::Ray> rays;
+    for (unsigned i = 0; i < size * size; ++i) {
+        const unsigned tile = i / 64, x = tile % (size / 8) * 8 + i % 8,
+                       y = tile / (size / 8) * 8 + i % 64 / 8;
+        const float u = (float(x) + 0.5f) / float(size) * 2 - 1, v = 1 - (float(y) + 0.5f) / float(size) * 2;
+        rays.push_back(make_ray(scene.eye, glm::normalize(forward + scene.half_height * (u * right + v * up)),
+                                infinity, TRIAD_NONE));
+    }
+    return rays;
+}
+
+/// Where a ray hit, a little before the surface, so that Embree, which cannot skip a triangle, sees the same
+/// scene.
+struct Point {
+    vec3 position, normal;
+    std::uint32_t primitive;
+};
+std::vector<Point> points_of(const BenchScene& scene, const std::vector<dev::Ray>& rays,
+                             const std::vector<dev::Hit>& hits) {
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (hits[i].primitive == TRIAD_NONE) continue;
+        const uvec3 t = scene.mesh.triangles[hits[i].primitive];
+        const vec3 a = scene.mesh.positions[t.x], b = scene.mesh.positions[t.y],
+                   c = scene.mesh.positions[t.z];
+        const vec3 d(rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]);
+        vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+        if (glm::dot(normal, d) > 0) normal = -normal;
+        points.push_back({a + hits[i].u * (b - a) + hits[i].v * (c - a) + 1e-4f * scene.reach * normal,
+                          normal, hits[i].primitive});
+    }
+    return points;
+}
+
+class Random {
+  public:
+    float operator()() { return float(engine_() >> 8) * 0x1p-24f; }
+
+  private:
+    std::mt19937 engine_{1};
+};
+
+/// A cosine-distributed direction from every point.
+std::vector<dev::Ray> diffuse_rays(const std::vector<Point>& points) {
+    Random random;
+    std::vector<dev::Ray> rays;
+    for (const Point& p : points) {
+        const float phi = 2 * float(pi) * random(), z = 2 * random() - 1,
+                    r = std::sqrt(std::max(0.0f, 1 - z * z));
+        const vec3 direction = p.normal * 1.0001f + vec3(r * std::cos(phi), r * std::sin(phi), z);
+        rays.push_back(make_ray(p.position, glm::normalize(direction), infinity, p.primitive));
+    }
+    return rays;
+}
+
+/// To a random point of the light, where the surface faces it; the segment ends a little before it.
+std::vector<dev::Ray> shadow_rays(const BenchScene& scene, const std::vector<Point>& points) {
+    Random random;
+    std::vector<dev::Ray> rays;
+    for (const Point& p : points) {
+        const float u = random(), v = random();
+        const vec3 to_light = scene.light + u * scene.light_u + v * scene.light_v - p.position;
+        if (glm::dot(to_light, p.normal) <= 0) continue;
+        const float distance = glm::length(to_light);
+        rays.push_back(make_ray(p.position, to_light / distance, 0.999f * distance, p.primitive));
+    }
+    return rays;
+}
+
+/// Differences that are no matter of an edge or of two surfaces at one distance.
+std::size_t count_differences(const std::vector<dev::Hit>& a, const std::vector<dev::Hit>& b, float reach) {
+    std::size_t differences = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const bool miss_a = a[i].primitive == TRIAD_NONE, miss_b = b[i].primitive == TRIAD_NONE;
+        if (miss_a != miss_b || (!miss_a && std::fabs(a[i].t - b[i].t) > 1e-4f * (std::fabs(b[i].t) + reach)))
+            ++differences;
+    }
+    return differences;
+}
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2), values.end());
+    return values[values.size() / 2];
+}
+
+/// Both Embrees, when there is Embree.
+struct Peers {
+    std::unique_ptr<EmbreeTracer> plain, robust;
+};
+
+nlohmann::json measure(const BenchScene& scene, const std::string& kind, const std::vector<dev::Ray>& rays,
+                       TriadTracer& tracer, const Peers& peers, unsigned rounds) {
+    const bool occlusion = kind == "shadow";
+    tracer.set_rays(rays);
+    tracer.trace(occlusion);
+    std::vector<dev::Hit> hits(rays.size());
+    std::vector<std::uint32_t> occluded(rays.size());
+    const auto embree = [&](const EmbreeTracer& peer) {
+        return occlusion ? peer.occluded(rays, occluded) : peer.closest(rays, hits);
+    };
+    nlohmann::json row{{"scene", scene.name},
+                       {"triangles", scene.mesh.triangles.size()},
+                       {"kind", kind},
+                       {"rays", rays.size()}};
+    if (peers.plain) {
+        embree(*peers.robust);
+        std::size_t differences = 0;
+        if (occlusion) {
+            const auto ours = tracer.occluded();
+            for (std::size_t i = 0; i < rays.size(); ++i) differences += ours[i] != occluded[i];
+        } else {
+            differences = count_differences(tracer.hits(), hits, scene.reach);
+        }
+        row["differences"] = differences;
+        // Robust Embree is conservative at edges: some tens in a million are its own.
+        if (double(differences) > 1e-4 * double(rays.size()))
+            throw Error(Exit::comparison, "Triad and Embree disagree on " + std::to_string(differences) +
+                                              " of " + std::to_string(rays.size()) + " " + kind +
+                                              " rays of " + scene.name +
+                                              ": no speed is reported for wrong answers.");
+    }
+    std::vector<double> triad, plain, robust;
+    for (unsigned round = 0; round < rounds; ++round) {
+        triad.push_back(tracer.trace(occlusion));
+        if (!peers.plain) continue;
+        plain.push_back(embree(*peers.plain));
+        robust.push_back(embree(*peers.robust));
+    }
+    const auto report = [&](const std::string& name, const std::vector<double>& seconds) {
+        const double mega = double(rays.size()) * 1e-6;
+        row[name + "_mrays"] = mega / *std::min_element(seconds.begin(), seconds.end());
+        row[name + "_mrays_median"] = mega / median(seconds);
+    };
+    report("triad", triad);
+    std::printf("%-10s %-8s %8.2f", scene.name.c_str(), kind.c_str(), row["triad_mrays"].get<double>());
+    if (peers.plain) {
+        report("embree", plain);
+        report("embree_robust", robust);
+        row["ratio"] = row["triad_mrays"].get<double>() / row["embree_mrays"].get<double>();
+        row["ratio_robust"] = row["triad_mrays"].get<double>() / row["embree_robust_mrays"].get<double>();
+        std::printf(" %8.2f %8.2f %8.3f %8.3f %6zu", row["embree_mrays"].get<double>(),
+                    row["embree_robust_mrays"].get<double>(), row["ratio"].get<double>(),
+                    row["ratio_robust"].get<double>(), row["differences"].get<std::size_t>());
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+    return row;
+}
+
+int run(int argc, char** argv) {
+    const Options options = parse(argc, argv);
+    Device device = Device::open({.selector = options.device, .threads = options.threads});
+    if (options.local) device.set_preferred_local(options.local);
+    nlohmann::json report{{"schema", "triad.bench-rays/1"},
+                          {"version", TRIAD_VERSION},
+                          {"machine", {{"cores", std::thread::hardware_concurrency()}}},
+                          {"device",
+                           {{"name", device.info().name},
+                            {"driver", device.info().driver},
+                            {"threads", options.threads},
+                            {"local", device.preferred_local()}}},
+                          {"clock", use_cpu_clock ? "cpu" : "wall"},
+                          {"rows", nlohmann::json::array()},
+                          {"builds", nlohmann::json::array()}};
+    std::printf("%s, %u thread(s); Mrays/s, best of %u\n%-10s %-8s %8s %8s %8s %8s %8s %6s\n",
+                device.info().name.c_str(), options.threads, options.rounds, "scene", "rays", "triad",
+                "embree", "robust", "ratio", "ratio-r", "differ");
+    for (const std::string& name : options.scenes) {
+        const BenchScene scene = make_scene(name);
+        TriadTracer tracer(device, scene);
+        Peers peers;
+        if (EmbreeTracer::available()) {
+            peers.plain = std::make_unique<EmbreeTracer>(scene, false);
+            peers.robust = std::make_unique<EmbreeTracer>(scene, true);
+        }
+        set_host_threads(options.threads);
+        const auto add = [&](const char* kind, const std::vector<dev::Ray>& rays) {
+            report["rows"].push_back(measure(scene, kind, rays, tracer, peers, options.rounds));
+        };
+        const auto primary = primary_rays(scene, options.size);
+        add("primary", primary);
+        const auto seen = points_of(scene, primary, tracer.hits());
+        const auto diffuse = diffuse_rays(seen);
+        add("diffuse", diffuse);
+        add("shadow", shadow_rays(scene, points_of(scene, diffuse, tracer.hits())));
+        set_host_threads(0);
+        const double triangles = double(scene.mesh.triangles.size());
+        report["builds"].push_back(
+            {{"scene", name},
+             {"triad_seconds", tracer.build_seconds()},
+             {"embree_seconds",
+              peers.plain ? nlohmann::json(peers.plain->build_seconds()) : nlohmann::json()},
+             {"node_bytes_per_triangle", double(tracer.node_bytes()) / triangles},
+             {"block_bytes_per_triangle", double(tracer.block_bytes()) / triangles}});
+        std::printf("%-10s build %.3f s (Embree %.3f s), %.1f + %.1f bytes per triangle (nodes + blocks)\n",
+                    name.c_str(), tracer.build_seconds(), peers.plain ? peers.plain->build_seconds() : 0.0,
+                    double(tracer.node_bytes()) / triangles, double(tracer.block_bytes()) / triangles);
+    }
+    if (!options.json.empty()) std::ofstream(options.json) << report.dump(2) << "\n";
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const Error& error) {
+        std::cerr << "triad-bench-rays: " << error.what() << "\n";
+        return int(error.exit());
+    }
+}

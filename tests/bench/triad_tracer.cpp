@@ -1,0 +1,47 @@
+#include "triad_tracer.h"
+
+#include "clock.h"
+
+namespace triad::bench {
+
+TriadTracer::TriadTracer(Device& device, const BenchScene& scene) : device_(device) {
+    std::vector<BvhTriangle> triangles;
+    for (const uvec3& t : scene.mesh.triangles)
+        triangles.push_back(
+            {{scene.mesh.positions[t.x], scene.mesh.positions[t.y], scene.mesh.positions[t.z]},
+             std::uint32_t(triangles.size()),
+             true});
+    BvhPool pool;
+    const double start = now();
+    root_ = build_bvh(triangles, {}, scene.reach, pool);
+    build_seconds_ = now() - start;
+    nodes_ = device_.upload(pool.nodes);
+    blocks_ = device_.upload(pool.blocks);
+    const Program program = device_.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}});
+    closest_ = program.kernel("intersect_closest");
+    occluded_ = program.kernel("intersect_occluded");
+}
+
+void TriadTracer::set_rays(const std::vector<dev::Ray>& rays) {
+    count_ = std::uint32_t(rays.size());
+    rays_ = device_.upload(rays);
+    results_ = device_.allocate(rays.size() * sizeof(dev::Hit));
+}
+
+double TriadTracer::trace(bool occluded) {
+    const Arguments arguments =
+        Arguments().add(nodes_).add(blocks_).add(Buffer{}).add(root_).add(rays_).add(results_).add(count_);
+    device_.finish();
+    const double start = now();
+    device_.run(occluded ? occluded_ : closest_, arguments, count_);
+    device_.finish();
+    return now() - start;
+}
+
+std::vector<std::uint32_t> TriadTracer::occluded() {
+    std::vector<std::uint32_t> values(count_);
+    device_.read(results_, values.data(), values.size() * sizeof(std::uint32_t));
+    return values;
+}
+
+}  // namespace triad::bench

@@ -1,0 +1,34 @@
+#pragma once
+/// Triad's side of the ray benchmark: one tree on one device.
+#include <vector>
+
+#include "bench_scenes.h"
+#include "bvh/bvh.h"
+#include "device/device.h"
+
+namespace triad::bench {
+
+class TriadTracer {
+  public:
+    TriadTracer(Device& device, const BenchScene& scene);
+
+    /// Uploads; what trace() is run on until the next call.
+    void set_rays(const std::vector<dev::Ray>& rays);
+    /// Seconds of one pass over the rays, on the device, results left there.
+    double trace(bool occluded);
+    std::vector<dev::Hit> hits() { return device_.download<dev::Hit>(results_); }
+    std::vector<std::uint32_t> occluded();
+
+    double build_seconds() const { return build_seconds_; }
+    std::size_t node_bytes() const { return nodes_.bytes(); }
+    std::size_t block_bytes() const { return blocks_.bytes(); }
+
+  private:
+    Device& device_;
+    Buffer nodes_, blocks_, rays_, results_;
+    Kernel closest_, occluded_;
+    std::uint32_t root_ = 0, count_ = 0;
+    double build_seconds_ = 0;
+};
+
+}  // namespace triad::bench
