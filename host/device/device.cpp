@@ -170,6 +170,14 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
         local = preferred_local();
         if (state.max_local > 0) local = std::min(local, state.max_local);
     }
+    // Some drivers answer a group that is too large as they answer a crash.
+    if (state.max_local > 0 && local > state.max_local) {
+        Where where = state.where;
+        where.sentence = "Kernel " + kernel.name() + " runs in groups of at most " +
+                         std::to_string(state.max_local) + " on this device, not " + std::to_string(local) +
+                         ".";
+        core.check("clEnqueueNDRangeKernel", CL_INVALID_WORK_GROUP_SIZE, where);
+    }
     const std::size_t global = (items + local - 1) / local * local;
     cl_event event = nullptr;
     core.check("clEnqueueNDRangeKernel",

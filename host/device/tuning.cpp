@@ -30,7 +30,8 @@ std::optional<std::size_t> load_tuned_local(const DeviceInfo& device) {
     std::ifstream file(path);
     if (path.empty() || !file) return {};
     const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object() || json.value("schema", "") != schema || !json.contains("local")) return {};
+    if (!json.is_object() || !json.contains("local") || !json.contains("schema") || json["schema"] != schema)
+        return {};
     const auto& local = json["local"];
     if (!local.is_number_unsigned() || local == 0u) return {};
     return local.get<std::size_t>();

@@ -187,6 +187,19 @@ TEST(DeviceError, of_arguments_that_do_not_fit_the_kernel) {
     EXPECT_TRUE(says(wide, "Argument 2 of kernel add_to")) << wide.what();
 }
 
+TEST(DeviceError, of_too_large_a_group_leaves_the_device_usable) {
+    Device& device = test_device();
+    const Kernel kernel = add_kernel(device);
+    const Buffer buffer = device.allocate(256);
+    const Arguments arguments =
+        Arguments().add(buffer).add(Buffer{}).add(std::uint32_t(1)).add(std::uint32_t(1));
+    const DeviceError error =
+        error_of([&] { device.run(kernel, arguments, 1, device.info().max_work_group + 1); });
+    EXPECT_EQ(error.code(), -54);
+    EXPECT_NO_THROW(device.run(kernel, arguments, 1));
+    EXPECT_NO_THROW(device.finish());
+}
+
 TEST(DeviceError, of_too_large_a_buffer_means_memory_and_the_device_stays_usable) {
     Device& device = test_device();
     const std::uint64_t most = device.info().max_allocation;

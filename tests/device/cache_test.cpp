@@ -1,0 +1,139 @@
+// What is kept between runs: compiled programs and tuned work-group sizes. And how a device is selected.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+
+#include "base/hash.h"
+#include "device_fixture.h"
+
+namespace fs = std::filesystem;
+using namespace triad;
+
+namespace {
+
+/// An empty cache folder of its own for one test.
+class Cache : public testing::Test {
+  protected:
+    fs::path folder = fs::temp_directory_path() / ("triad-cache-" + std::to_string(::getpid()));
+    std::string before;
+    bool was_set = false;
+    void SetUp() override {
+        test_device();  // drivers read the variable too, when they start
+        if (const char* value = std::getenv("XDG_CACHE_HOME")) before = value, was_set = true;
+        ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
+    }
+    void TearDown() override {
+        was_set ? ::setenv("XDG_CACHE_HOME", before.c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
+        fs::remove_all(folder);
+    }
+    std::vector<fs::path> programs() const {
+        std::vector<fs::path> paths;
+        const fs::path at = folder / "triad/programs";
+        if (fs::exists(at))
+            for (const auto& entry : fs::directory_iterator(at)) paths.push_back(entry.path());
+        return paths;
+    }
+    static Device again() { return Device::open({.selector = std::to_string(test_device().info().index)}); }
+    static std::uint32_t answer(const std::string& value = "42") {
+        Device device = again();
+        const Buffer out = device.allocate(sizeof(std::uint32_t));
+        const Program program = device.build_source(
+            "answer.cl", "__kernel void answer(__global uint* out) { out[0] = VALUE; }", {{"VALUE", value}});
+        device.run(program.kernel("answer"), Arguments().add(out), 1, 1);
+        return device.download<std::uint32_t>(out).front();
+    }
+};
+
+std::string contents(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(Cache, holds_one_entry_per_text_and_options_unless_the_driver_keeps_its_own) {
+    EXPECT_EQ(answer(), 42u);
+    const std::size_t each = test_device().info().platform == "Portable Computing Language" ? 0 : 1;
+    EXPECT_EQ(programs().size(), each);
+    EXPECT_EQ(answer(), 42u);
+    EXPECT_EQ(programs().size(), each);
+    EXPECT_EQ(answer("43"), 43u);
+    EXPECT_EQ(programs().size(), 2 * each);
+}
+
+TEST_F(Cache, survives_damaged_entries_and_mends_them) {
+    EXPECT_EQ(answer(), 42u);
+    for (const fs::path& path : programs()) {
+        const std::string good = contents(path);
+        std::string flipped = good;
+        flipped[flipped.size() / 2] ^= 1;
+        for (const std::string& bad :
+             {std::string(), good.substr(0, 20), good.substr(0, good.size() / 2), flipped}) {
+            std::ofstream(path, std::ios::binary) << bad;
+            EXPECT_EQ(answer(), 42u);
+            EXPECT_EQ(contents(path).size(), good.size()) << "not rebuilt";
+        }
+    }
+}
+
+TEST_F(Cache, that_cannot_be_written_costs_nothing_but_time) {
+    std::ofstream(folder) << "a file where the folder should be";
+    EXPECT_EQ(answer(), 42u);
+    store_tuned_local(test_device().info(), 8);
+    EXPECT_FALSE(load_tuned_local(test_device().info()));
+}
+
+TEST_F(Cache, keeps_the_tuned_group_size_per_device_and_driver) {
+    const DeviceInfo& info = test_device().info();
+    EXPECT_FALSE(load_tuned_local(info));
+    EXPECT_EQ(again().preferred_local(), std::min<std::size_t>(64, info.max_work_group));
+    store_tuned_local(info, 8);
+    EXPECT_EQ(load_tuned_local(info), 8u);
+    EXPECT_EQ(again().preferred_local(), 8u);
+    DeviceInfo other = info;
+    other.driver += " next";
+    EXPECT_FALSE(load_tuned_local(other));
+    for (const char* bad :
+         {"", "{", "[]", "{\"schema\": \"triad.tuned/1\", \"local\": 0}", "{\"schema\": 3, \"local\": 8}",
+          "{\"schema\": \"triad.tuned/1\", \"local\": \"8\"}"}) {
+        for (const auto& entry : fs::directory_iterator(folder / "triad/tuned"))
+            std::ofstream(entry.path()) << bad;
+        EXPECT_FALSE(load_tuned_local(info)) << bad;
+    }
+}
+
+TEST(Selection, by_index_type_and_part_of_a_name_in_any_case) {
+    const DeviceInfo& info = test_device().info();
+    std::string upper = info.name;
+    std::transform(upper.begin(), upper.end(), upper.begin(),
+                   [](unsigned char c) { return std::toupper(c); });
+    EXPECT_EQ(Device::open({.selector = std::to_string(info.index)}).info().index, info.index);
+    EXPECT_EQ(Device::open({.selector = upper}).info().name, info.name);
+    EXPECT_EQ(Device::open({.selector = info.platform.substr(1)}).info().platform, info.platform);
+    if (info.type != "other") {
+        EXPECT_EQ(Device::open({.selector = info.type}).info().type, info.type);
+    }
+}
+
+TEST(Selection, prefers_exactly_one_device_and_opens_it) {
+    const DeviceList list = list_devices();
+    std::vector<std::size_t> preferred;
+    for (const DeviceInfo& each : list.devices)
+        if (each.preferred) preferred.push_back(each.index);
+    ASSERT_EQ(preferred.size(), 1u);
+    EXPECT_EQ(Device::open({}).info().index, preferred.front());
+}
+
+TEST(Selection, of_nothing_lists_what_there_is) {
+    try {
+        Device::open({.selector = "no such device"});
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.exit(), Exit::usage);
+        EXPECT_NE(std::string(error.what()).find(test_device().info().name), std::string::npos)
+            << error.what();
+    }
+}
+
+}  // namespace
