@@ -1,0 +1,230 @@
+#include "io/gltf_material.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/parallel_for.h"
+
+namespace triad::gltf {
+namespace {
+
+using tinygltf::Value;
+
+constexpr std::uint64_t image_cap = std::uint64_t(1) << 30;  // bytes of an encoded image
+
+const Value* find(const tinygltf::ExtensionMap& extensions, const char* name) {
+    const auto found = extensions.find(name);
+    return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
+}
+
+vec3 colour(const Value& object, const char* member, const vec3& otherwise) {
+    if (!object.Has(member)) return otherwise;
+    const Value& array = object.Get(std::string(member));
+    return vec3(array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
+                array.Get(2).GetNumberAsDouble());
+}
+
+float unit(double x) { return float(std::clamp(x, 0.0, 1.0)); }
+
+vec3 not_negative(const vec3& c) { return glm::max(c, vec3(0.0f)); }
+
+Wrap wrap_of(int value, const std::string& what) {
+    switch (value) {
+        case TINYGLTF_TEXTURE_WRAP_REPEAT:
+            return Wrap::repeat;
+        case TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT:
+            return Wrap::mirror;
+        case TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE:
+            return Wrap::clamp;
+        default:
+            throw Error(Exit::scene, what + " has the unknown wrap mode " + std::to_string(value) + ".");
+    }
+}
+
+/// The magnification filter decides; a file that gives only the other one means the same by its first word.
+bool is_linear(const tinygltf::Sampler& sampler) {
+    if (sampler.magFilter >= 0) return sampler.magFilter == TINYGLTF_TEXTURE_FILTER_LINEAR;
+    return sampler.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST &&
+           sampler.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST &&
+           sampler.minFilter != TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR;
+}
+
+/// KHR_texture_transform: u' = ox + c sx u + s sy v, v' = oy - s sx u + c sy v. (The GLSL in the extension's
+/// text, read as column-major, turns the other way; its JSON example and the TextureTransformTest asset agree
+/// with this.)
+std::array<float, 6> transform_of(const Value& extension) {
+    const auto pair = [&](const char* member, double otherwise) {
+        if (!extension.Has(member)) return dvec2(otherwise);
+        const Value& array = extension.Get(std::string(member));
+        return dvec2(array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble());
+    };
+    const dvec2 offset = pair("offset", 0.0), scale = pair("scale", 1.0);
+    const double rotation = number(extension, "rotation", 0.0), c = std::cos(rotation),
+                 s = std::sin(rotation);
+    return {float(c * scale.x),  float(s * scale.y), float(offset.x),
+            float(-s * scale.x), float(c * scale.y), float(offset.y)};
+}
+
+/// The extension that an image format belongs to which cannot be decoded here, by the first bytes.
+const char* unsupported_format(Bytes bytes) {
+    const auto starts = [&](const char* magic) {
+        return bytes.size() >= std::strlen(magic) &&
+               std::memcmp(bytes.data(), magic, std::strlen(magic)) == 0;
+    };
+    if (starts("\xabKTX 20\xbb") || starts("\xabKTX 11\xbb")) return "KHR_texture_basisu";
+    if (starts("DDS ")) return "MSFT_texture_dds";
+    return nullptr;
+}
+
+}  // namespace
+
+double number(const Value& object, const char* member, double otherwise) {
+    return object.Has(member) ? object.Get(std::string(member)).GetNumberAsDouble() : otherwise;
+}
+
+std::size_t Materials::use(int material) {
+    const auto [found, is_new] = materials_.try_emplace(material, scene_.materials.size());
+    if (is_new) scene_.materials.push_back(material < 0 ? Material{.name = "default"} : convert(material));
+    return found->second;
+}
+
+std::size_t Materials::texture_with_sampler(int index, const std::string& what) {
+    const auto [found, is_new] = textures_.try_emplace(index, scene_.textures.size());
+    if (!is_new) return found->second;
+    const tinygltf::Texture& texture = file_.model.textures[std::size_t(index)];
+    const std::string name = what + ", " + label("texture", std::size_t(index), texture.name);
+
+    int source = texture.source;
+    if (const Value* webp = find(texture.extensions, "EXT_texture_webp"); webp && webp->Has("source"))
+        source = webp->Get("source").GetNumberAsInt();
+    for (const char* other : {"KHR_texture_basisu", "MSFT_texture_dds"})
+        if (source < 0 && find(texture.extensions, other))
+            throw Error(Exit::unsupported, name + " needs " + other +
+                                               ", which is not supported; convert its image to PNG or JPEG.");
+    if (source < 0) throw Error(Exit::scene, name + " has no image.");
+
+    const auto [image, new_image] = images_.try_emplace(source, scene_.images.size());
+    if (new_image) {
+        scene_.images.push_back({.name = file_.images[std::size_t(source)].name});
+        image_sources_.push_back(source);
+    }
+    Texture result{.image = image->second};
+    if (texture.sampler >= 0) {
+        const tinygltf::Sampler& sampler = file_.model.samplers[std::size_t(texture.sampler)];
+        const std::string sampler_name = label("sampler", std::size_t(texture.sampler), sampler.name);
+        result.wrap_u = wrap_of(sampler.wrapS, sampler_name);
+        result.wrap_v = wrap_of(sampler.wrapT, sampler_name);
+        result.linear = is_linear(sampler);
+    }
+    scene_.textures.push_back(result);
+    return found->second;
+}
+
+std::optional<TextureUse> Materials::texture(const char* member, int index, int uv_set,
+                                             const tinygltf::ExtensionMap& extensions,
+                                             const std::string& what) {
+    if (index < 0) return std::nullopt;
+    TextureUse use;
+    if (const Value* transform = find(extensions, "KHR_texture_transform")) {
+        use.transform = transform_of(*transform);
+        uv_set = int(number(*transform, "texCoord", uv_set));
+    }
+    if (uv_set > 1) {
+        file_.warn(what + " uses TEXCOORD_" + std::to_string(uv_set) + " for its " + member +
+                   "; only TEXCOORD_0 and 1 are supported, so that texture is left out.");
+        return std::nullopt;
+    }
+    use.uv_set = unsigned(uv_set);
+    use.texture = texture_with_sampler(index, what);
+    return use;
+}
+
+Material Materials::convert(int index) {
+    const tinygltf::Material& source = file_.model.materials[std::size_t(index)];
+    const auto& pbr = source.pbrMetallicRoughness;
+    const std::string what = label("material", std::size_t(index), source.name);
+    const auto info = [&](const char* member, const auto& texture_info) {
+        return texture(member, texture_info.index, texture_info.texCoord, texture_info.extensions, what);
+    };
+    const auto extension_texture = [&](const Value& extension,
+                                       const char* member) -> std::optional<TextureUse> {
+        if (!extension.Has(member)) return std::nullopt;
+        const Value& object = extension.Get(std::string(member));
+        tinygltf::ExtensionMap extensions;
+        if (object.Has("extensions")) extensions = object.Get("extensions").Get<Value::Object>();
+        return texture(member, int(number(object, "index", -1)), int(number(object, "texCoord", 0)),
+                       extensions, what);
+    };
+
+    Material m;
+    m.name = source.name;
+    const auto& base = pbr.baseColorFactor;
+    m.base_colour = vec4(unit(base[0]), unit(base[1]), unit(base[2]), unit(base[3]));
+    m.metallic = unit(pbr.metallicFactor);
+    m.roughness = unit(pbr.roughnessFactor);
+    m.double_sided = source.doubleSided;
+    m.alpha_cutoff = float(source.alphaCutoff);
+    if (source.alphaMode == "MASK")
+        m.alpha_mode = AlphaMode::mask;
+    else if (source.alphaMode == "BLEND")
+        m.alpha_mode = AlphaMode::blend;
+    else if (source.alphaMode != "OPAQUE")
+        throw Error(Exit::scene,
+                    what + " has the unknown alphaMode '" + source.alphaMode.substr(0, 40) + "'.");
+    m.base_colour_texture = info("baseColorTexture", pbr.baseColorTexture);
+    m.metallic_roughness_texture = info("metallicRoughnessTexture", pbr.metallicRoughnessTexture);
+    m.normal_texture = info("normalTexture", source.normalTexture);
+    m.normal_scale = float(source.normalTexture.scale);
+
+    if (const auto& e = source.emissiveFactor; e.size() == 3)
+        m.emission = not_negative(vec3(e[0], e[1], e[2]));
+    if (const Value* e = find(source.extensions, "KHR_materials_emissive_strength"))
+        m.emission *= float(number(*e, "emissiveStrength", 1.0));
+    if (m.emission != vec3(0.0f)) m.emission_texture = info("emissiveTexture", source.emissiveTexture);
+
+    m.unlit = find(source.extensions, "KHR_materials_unlit") != nullptr;
+    if (const Value* e = find(source.extensions, "KHR_materials_ior")) {
+        const double ior = number(*e, "ior", 1.5);
+        if (ior != 0.0 && ior < 1.0) file_.warn(what + " has an ior below 1, which is taken as 1.");
+        m.ior = ior == 0.0 ? 0.0f : float(std::max(ior, 1.0));
+    }
+    if (const Value* e = find(source.extensions, "KHR_materials_specular")) {
+        m.specular = unit(number(*e, "specularFactor", 1.0));
+        m.specular_colour = not_negative(colour(*e, "specularColorFactor", vec3(1.0f)));
+        m.specular_texture = extension_texture(*e, "specularTexture");
+        m.specular_colour_texture = extension_texture(*e, "specularColorTexture");
+    }
+    if (const Value* e = find(source.extensions, "KHR_materials_transmission")) {
+        m.transmission = unit(number(*e, "transmissionFactor", 0.0));
+        if (m.transmission > 0.0f) m.transmission_texture = extension_texture(*e, "transmissionTexture");
+    }
+    if (const Value* e = find(source.extensions, "KHR_materials_volume")) {
+        m.thickness = float(number(*e, "thicknessFactor", 0.0));
+        m.attenuation_colour = glm::clamp(colour(*e, "attenuationColor", vec3(1.0f)), 0.0f, 1.0f);
+        const double distance = number(*e, "attenuationDistance", 0.0);
+        if (distance > 0.0) m.attenuation_distance = float(distance);
+    }
+    return m;
+}
+
+void Materials::decode_images() {
+    parallel_for(scene_.images.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const ImageSource& source = file_.images[std::size_t(image_sources_[i])];
+            std::vector<std::uint8_t> bytes;
+            if (source.path.empty())
+                bytes.assign(source.bytes.begin(), source.bytes.end());
+            else
+                bytes = triad::read_file(source.path, image_cap);
+            if (const char* extension = unsupported_format(bytes))
+                throw Error(Exit::unsupported, source.name + " is of a format that needs " + extension +
+                                                   ", which is not supported; convert it to PNG or JPEG.");
+            scene_.images[i] = decode_image(source.name, bytes);
+        }
+    });
+}
+
+}  // namespace triad::gltf

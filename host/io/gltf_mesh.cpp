@@ -1,0 +1,189 @@
+#include "io/gltf_mesh.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "io/gltf_accessor.h"
+#include "scene/tangents.h"
+
+namespace triad::gltf {
+namespace {
+
+bool is_finite(float x) { return std::isfinite(x); }
+
+/// Corners of the triangles that a list, strip or fan of indices means (glTF 2.0, 3.7.2.1).
+std::vector<uvec3> triangles_of(const std::vector<std::uint32_t>& indices, int mode) {
+    std::vector<uvec3> triangles;
+    const std::size_t n = indices.size();
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+        triangles.reserve(n / 3);
+        for (std::size_t i = 0; i + 2 < n; i += 3)
+            triangles.emplace_back(indices[i], indices[i + 1], indices[i + 2]);
+    } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+        for (std::size_t i = 0; i + 2 < n; ++i)
+            triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);
+    } else {
+        for (std::size_t i = 0; i + 2 < n; ++i)
+            triangles.emplace_back(indices[i + 1], indices[i + 2], indices[0]);
+    }
+    return triangles;
+}
+
+/// Unit normals; a normal without length or with a NaN becomes that of the triangles around its vertex.
+void normalise(std::vector<vec3>& normals, const Primitive& primitive) {
+    const auto is_good = [](const vec3& n) { return glm::dot(n, n) > 1e-12f && is_finite(glm::dot(n, n)); };
+    bool all_good = true;
+    for (vec3& n : normals) {
+        if (is_good(n))
+            n = glm::normalize(n);
+        else
+            n = vec3(0.0f), all_good = false;
+    }
+    if (all_good) return;
+    std::vector<dvec3> around(normals.size(), dvec3(0.0));
+    for (const uvec3& t : primitive.triangles) {
+        const dvec3 a = primitive.positions[t.x], b = primitive.positions[t.y], c = primitive.positions[t.z];
+        const dvec3 n = glm::cross(b - a, c - a);
+        for (int k = 0; k < 3; ++k) around[t[k]] += n;
+    }
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        if (normals[i] != vec3(0.0f)) continue;
+        const double length = glm::length(around[i]);
+        normals[i] =
+            length > 0.0 && std::isfinite(length) ? vec3(around[i] / length) : vec3(0.0f, 0.0f, 1.0f);
+    }
+}
+
+/// Unit tangents with a sign; false when one of them has no direction.
+bool normalise(std::vector<vec4>& tangents) {
+    for (vec4& t : tangents) {
+        const float length = glm::length(vec3(t));
+        if (!(length > 1e-6f) || !is_finite(length)) return false;
+        t = vec4(vec3(t) / length, t.w < 0.0f ? -1.0f : 1.0f);
+    }
+    return true;
+}
+
+std::vector<vec2> transformed(const std::vector<vec2>& uvs, const TextureUse& use) {
+    const auto& m = use.transform;
+    std::vector<vec2> result;
+    result.reserve(uvs.size());
+    for (const vec2& uv : uvs)
+        result.emplace_back(m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]);
+    return result;
+}
+
+}  // namespace
+
+std::size_t Meshes::use(int index) {
+    const auto [found, is_new] = meshes_.try_emplace(index, scene_.meshes.size());
+    if (!is_new) return found->second;
+    const tinygltf::Mesh& source = file_.model.meshes[std::size_t(index)];
+    Mesh mesh;
+    mesh.name = source.name;
+    for (std::size_t i = 0; i < source.primitives.size(); ++i) {
+        const std::string what =
+            label("mesh", std::size_t(index), source.name) + ", primitive " + std::to_string(i);
+        if (auto primitive = convert(source.primitives[i], what))
+            mesh.primitives.push_back(std::move(*primitive));
+    }
+    scene_.meshes.push_back(std::move(mesh));
+    return found->second;
+}
+
+std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, const std::string& what) {
+    const int mode = source.mode < 0 ? TINYGLTF_MODE_TRIANGLES : source.mode;
+    if (mode < TINYGLTF_MODE_TRIANGLES) {
+        file_.warn(what + (mode == TINYGLTF_MODE_POINTS ? " is made of points" : " is made of lines") +
+                   ", which have no surface; it is left out.");
+        return std::nullopt;
+    }
+    if (!source.targets.empty()) file_.warn(what + " has morph targets; it is rendered undeformed.");
+    const auto attribute = [&](const char* name) {
+        const auto found = source.attributes.find(name);
+        return found == source.attributes.end() ? -1 : found->second;
+    };
+    const int positions = attribute("POSITION");
+    if (positions < 0) {
+        file_.warn(what + " has no POSITION; it is left out.");
+        return std::nullopt;
+    }
+    const std::size_t count = file_.model.accessors[std::size_t(positions)].count;
+    for (const auto& [name, accessor] : source.attributes)
+        if (file_.model.accessors[std::size_t(accessor)].count != count)
+            throw Error(Exit::scene, what + ": " + name + " (accessor " + std::to_string(accessor) +
+                                         ") has " +
+                                         std::to_string(file_.model.accessors[std::size_t(accessor)].count) +
+                                         " elements but POSITION has " + std::to_string(count) + ".");
+
+    Primitive p;
+    p.positions = read_vec3(file_, positions, Integers::quantised, what + ": POSITION");
+    if (count >= 0xffffffffu) throw Error(Exit::scene, what + " has too many vertices.");
+
+    std::vector<std::uint32_t> indices;
+    if (source.indices >= 0) {
+        indices = read_indices(file_, source.indices, what + ": indices");
+        for (std::size_t i = 0; i < indices.size(); ++i)
+            if (indices[i] >= count)
+                throw Error(Exit::scene, what + ": index " + std::to_string(i) + " is " +
+                                             std::to_string(indices[i]) + " but there are " +
+                                             std::to_string(count) + " vertices.");
+    } else {
+        file_.charge(count * sizeof(std::uint32_t), what);
+        indices.resize(count);
+        std::iota(indices.begin(), indices.end(), 0u);
+    }
+    file_.charge(indices.size() * (mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * sizeof(std::uint32_t), what);
+    if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
+        file_.warn(what + " has " + std::to_string(indices.size()) +
+                   " corners, no multiple of 3; the last are left out.");
+    p.triangles = triangles_of(indices, mode);
+
+    p.material = materials_.use(source.material);
+    const std::optional<TextureUse> normal_map = scene_.materials[p.material].normal_texture;
+    if (const int normals = attribute("NORMAL"); normals >= 0) {
+        p.normals = read_vec3(file_, normals, Integers::quantised, what + ": NORMAL");
+        normalise(p.normals, p);
+    }
+    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map) {
+        p.tangents = read_vec4(file_, tangents, Integers::quantised, what + ": TANGENT");
+        if (!normalise(p.tangents)) {
+            file_.warn(what + " has tangents without direction; they are computed anew.");
+            p.tangents.clear();
+        }
+    }
+    for (const auto& [name, accessor] : source.attributes)
+        if (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1")
+            file_.warn(what + " has the attribute " + name.substr(0, 40) +
+                       "; only TEXCOORD_0 and 1 are used.");
+    for (int set = 0; set < 2; ++set) {
+        const std::string name = "TEXCOORD_" + std::to_string(set);
+        const int accessor = attribute(name.c_str());
+        if (accessor < 0) continue;
+        const Integers integers = file_.quantised ? Integers::quantised : Integers::normalised;
+        p.uvs[set] = read_vec2(file_, accessor, integers, what + ": " + name);
+        for (vec2& uv : p.uvs[set])
+            if (!is_finite(uv.x) || !is_finite(uv.y)) uv = vec2(0.0f);
+    }
+    if (const int colours = attribute("COLOR_0"); colours >= 0) {
+        if (file_.model.accessors[std::size_t(colours)].type == TINYGLTF_TYPE_VEC3) {
+            for (const vec3& c : read_vec3(file_, colours, Integers::normalised, what + ": COLOR_0"))
+                p.colours.emplace_back(c, 1.0f);
+        } else {
+            p.colours = read_vec4(file_, colours, Integers::normalised, what + ": COLOR_0");
+        }
+        for (vec4& c : p.colours)
+            for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
+    }
+    if (normal_map && p.tangents.empty() && !p.uvs[normal_map->uv_set].empty()) {
+        if (p.normals.empty()) {
+            file_.charge(p.triangles.size() * 256, what);
+            make_flat(p);
+        }
+        generate_tangents(p, transformed(p.uvs[normal_map->uv_set], *normal_map));
+    }
+    return p;
+}
+
+}  // namespace triad::gltf

@@ -1,0 +1,101 @@
+#include "scene/scene.h"
+
+#include "base/hash.h"
+
+namespace triad {
+namespace {
+
+// Members are hashed one by one, never whole structs: padding bytes are not content.
+template <class T>
+requires std::is_arithmetic_v<T>
+void put(Hash& h, const T& value) { h.add_value(value); }
+void put(Hash& h, const std::string& text) { h.add(text); }
+
+template <int N, class T, glm::qualifier Q>
+void put(Hash& h, const glm::vec<N, T, Q>& v) {
+    h.add(&v, sizeof v);
+}
+void put(Hash& h, const dmat4& m) { h.add(&m, sizeof m); }
+
+template <class T>
+void put_array(Hash& h, const std::vector<T>& list) {
+    h.add_value(list.size());
+    h.add(list.data(), list.size() * sizeof(T));
+}
+
+void put(Hash& h, const std::optional<TextureUse>& use) {
+    h.add_value(std::uint8_t(use.has_value()));
+    if (!use) return;
+    h.add_value(use->texture).add_value(use->uv_set).add(use->transform.data(), sizeof use->transform);
+}
+
+template <class... Members>
+void put_all(Hash& h, const Members&... members) {
+    (put(h, members), ...);
+}
+
+void put(Hash& h, const Material& m) {
+    put_all(h, m.base_colour, m.metallic, m.roughness, m.emission, m.normal_scale, int(m.alpha_mode),
+            m.alpha_cutoff, std::uint8_t(m.double_sided), std::uint8_t(m.unlit), m.ior, m.specular,
+            m.specular_colour, m.transmission, m.thickness, m.attenuation_colour, m.attenuation_distance,
+            m.base_colour_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
+            m.specular_texture, m.specular_colour_texture, m.transmission_texture);
+}
+
+void put(Hash& h, const Mesh& mesh) {
+    h.add_value(mesh.primitives.size());
+    for (const Primitive& p : mesh.primitives) {
+        put_array(h, p.positions);
+        put_array(h, p.normals);
+        put_array(h, p.tangents);
+        put_array(h, p.uvs[0]);
+        put_array(h, p.uvs[1]);
+        put_array(h, p.colours);
+        put_array(h, p.triangles);
+        h.add_value(p.material);
+    }
+}
+
+}  // namespace
+
+Bounds bounds_of(const Scene& scene) {
+    Bounds bounds;
+    for (const MeshInstance& instance : scene.instances)
+        for (const Primitive& p : scene.meshes[instance.mesh].primitives)
+            for (const uvec3& t : p.triangles)
+                for (int k = 0; k < 3; ++k) bounds.add(transform_point(instance.to_world, p.positions[t[k]]));
+    return bounds;
+}
+
+std::string hash_of(const Scene& scene) {
+    Hash h;
+    h.add_value(scene.images.size());
+    for (const Image& image : scene.images) {
+        put_all(h, image.width, image.height, image.bits);
+        put_array(h, image.texels);
+    }
+    h.add_value(scene.textures.size());
+    for (const Texture& t : scene.textures)
+        put_all(h, t.image, int(t.wrap_u), int(t.wrap_v), std::uint8_t(t.linear));
+    h.add_value(scene.materials.size());
+    for (const Material& m : scene.materials) put(h, m);
+    h.add_value(scene.meshes.size());
+    for (const Mesh& mesh : scene.meshes) put(h, mesh);
+    h.add_value(scene.instances.size());
+    for (const MeshInstance& i : scene.instances) put_all(h, i.mesh, i.to_world);
+    h.add_value(scene.lights.size());
+    for (const PunctualLight& l : scene.lights)
+        put_all(h, int(l.type), l.position, l.direction, l.colour, l.range, l.inner_cone, l.outer_cone);
+    h.add_value(scene.cameras.size());
+    for (const SceneCamera& c : scene.cameras)
+        put_all(h, c.name, std::uint8_t(c.orthographic), c.yfov, c.aspect, c.magnification, c.to_world);
+    h.add_value(std::uint8_t(scene.environment.has_value()));
+    if (scene.environment) {
+        put_all(h, scene.environment->width, scene.environment->height);
+        put_array(h, scene.environment->rgb);
+    }
+    put(h, scene.sky);
+    return h.hex();
+}
+
+}  // namespace triad

@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace triad {
+namespace {
+
+[[noreturn]] void fail(const std::string& sentence) { throw Error(Exit::scene, sentence); }
+
+void require(bool condition, const std::string& what, const char* why) {
+    if (!condition) fail(what + " " + why + ".");
+}
+
+std::string label(const char* kind, std::size_t i, const std::string& name) {
+    return std::string(kind) + " " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
+}
+
+template <class Vector>
+bool is_finite(const Vector& v) {
+    for (int k = 0; k < Vector::length(); ++k)
+        if (!std::isfinite(v[k])) return false;
+    return true;
+}
+
+bool is_finite(const dmat4& m) {
+    return is_finite(m[0]) && is_finite(m[1]) && is_finite(m[2]) && is_finite(m[3]);
+}
+
+template <class Vector>
+bool all_finite(const std::vector<Vector>& list) {
+    return std::all_of(list.begin(), list.end(), [](const Vector& v) { return is_finite(v); });
+}
+
+bool in_unit(float x) { return x >= 0.0f && x <= 1.0f; }
+bool at_least_zero(const vec3& v) { return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; }
+
+void check_images(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.images.size(); ++i) {
+        const Image& image = scene.images[i];
+        const std::string what = label("Image", i, image.name);
+        require(image.width > 0 && image.height > 0, what, "has no pixels");
+        require(image.bits == 8 || image.bits == 16, what, "has neither 8 nor 16 bits per channel");
+        require(image.texels.size() == std::uint64_t(image.width) * image.height * 4 * (image.bits / 8), what,
+                "has a number of bytes that does not fit its size");
+    }
+    for (std::size_t i = 0; i < scene.textures.size(); ++i)
+        require(scene.textures[i].image < scene.images.size(), label("Texture", i, ""), "has no image");
+    if (const auto& map = scene.environment) {
+        require(map->width > 0 && map->height > 0 &&
+                    map->rgb.size() == std::uint64_t(map->width) * map->height * 3,
+                "The environment map", "has a number of texels that does not fit its size");
+        require(std::all_of(map->rgb.begin(), map->rgb.end(),
+                            [](float x) { return std::isfinite(x) && x >= 0.0f; }),
+                "The environment map", "has texels that are negative or no numbers");
+    }
+    require(at_least_zero(scene.sky), "The sky", "has a radiance that is negative or no number");
+}
+
+void check_material(const Scene& scene, const Material& m, const std::string& what) {
+    for (int k = 0; k < 4; ++k) require(in_unit(m.base_colour[k]), what, "has a base colour outside 0 to 1");
+    require(in_unit(m.metallic) && in_unit(m.roughness), what,
+            "has a metallic or roughness factor outside 0 to 1");
+    require(at_least_zero(m.emission), what, "has an emission that is negative or no number");
+    require(std::isfinite(m.normal_scale), what, "has a normal scale that is no number");
+    require(std::isfinite(m.alpha_cutoff), what, "has an alpha cutoff that is no number");
+    require(m.ior == 0.0f || (m.ior >= 1.0f && std::isfinite(m.ior)), what,
+            "has an index of refraction below 1");
+    require(in_unit(m.specular) && at_least_zero(m.specular_colour), what,
+            "has a specular factor out of range");
+    require(in_unit(m.transmission), what, "has a transmission outside 0 to 1");
+    require(m.thickness >= 0.0f && std::isfinite(m.thickness), what,
+            "has a thickness that is negative or no number");
+    require(
+        at_least_zero(m.attenuation_colour) && glm::all(glm::lessThanEqual(m.attenuation_colour, vec3(1.0f))),
+        what, "has an attenuation colour outside 0 to 1");
+    require(m.attenuation_distance > 0.0f, what, "has an attenuation distance that is not positive");
+    for (const auto* use :
+         {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture,
+          &m.specular_texture, &m.specular_colour_texture, &m.transmission_texture}) {
+        if (!*use) continue;
+        require((*use)->texture < scene.textures.size(), what, "uses a texture that does not exist");
+        require((*use)->uv_set < 2, what, "uses a UV set beyond 1");
+        require(std::all_of((*use)->transform.begin(), (*use)->transform.end(),
+                            [](float x) { return std::isfinite(x); }),
+                what, "has a texture transform with elements that are no numbers");
+    }
+}
+
+/// Removes triangles without area or with non-finite corners; returns how many.
+std::size_t drop_undrawable(Primitive& p) {
+    const auto is_undrawable = [&](const uvec3& t) {
+        const dvec3 a = p.positions[t.x], b = p.positions[t.y], c = p.positions[t.z];
+        const dvec3 n = glm::cross(b - a, c - a);
+        return !is_finite(a) || !is_finite(b) || !is_finite(c) || n == dvec3(0.0);
+    };
+    const std::size_t dropped = std::erase_if(p.triangles, is_undrawable);
+    for (vec3& position : p.positions)  // what is left of them belongs to no triangle
+        if (!is_finite(position)) position = vec3(0.0f);
+    return dropped;
+}
+
+std::size_t check_primitive(const Scene& scene, Primitive& p, const std::string& what) {
+    const std::size_t count = p.positions.size();
+    const auto fits = [&](const auto& list) { return list.empty() || list.size() == count; };
+    require(fits(p.normals) && fits(p.tangents) && fits(p.uvs[0]) && fits(p.uvs[1]) && fits(p.colours), what,
+            "has attributes of different lengths");
+    require(p.material < scene.materials.size(), what, "has a material that does not exist");
+    require(all_finite(p.normals) && all_finite(p.tangents) && all_finite(p.uvs[0]) && all_finite(p.uvs[1]) &&
+                all_finite(p.colours),
+            what, "has attributes that are no numbers");
+    for (const uvec3& t : p.triangles)
+        require(t.x < count && t.y < count && t.z < count, what, "has a triangle corner that does not exist");
+    for (const vec3& n : p.normals)
+        require(std::abs(glm::dot(n, n) - 1.0f) < 1e-3f, what, "has a normal that is not of unit length");
+    for (const vec4& t : p.tangents)
+        require(std::abs(glm::dot(vec3(t), vec3(t)) - 1.0f) < 1e-3f && std::abs(t.w) == 1.0f, what,
+                "has a tangent that is not of unit length or without sign");
+    return drop_undrawable(p);
+}
+
+void check_placed(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const MeshInstance& instance = scene.instances[i];
+        const std::string what = label("Instance", i, instance.name);
+        require(instance.mesh < scene.meshes.size(), what, "has no mesh");
+        require(is_finite(instance.to_world), what, "has a transform with elements that are no numbers");
+        require(glm::determinant(dmat3(instance.to_world)) != 0.0, what,
+                "has a transform that cannot be inverted");
+    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const PunctualLight& light = scene.lights[i];
+        const std::string what = label("Light", i, light.name);
+        require(at_least_zero(light.colour), what, "has an intensity that is negative or no number");
+        require(is_finite(light.position), what, "has a position that is no number");
+        require(std::abs(glm::length(light.direction) - 1.0) < 1e-6, what,
+                "has a direction that is not of unit length");
+        require(light.range >= 0.0f && std::isfinite(light.range), what,
+                "has a range that is negative or no number");
+        require(
+            light.inner_cone >= 0.0f && light.inner_cone <= light.outer_cone && light.outer_cone <= 1.5708f,
+            what, "has cone angles out of order");
+    }
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const SceneCamera& camera = scene.cameras[i];
+        const std::string what = label("Camera", i, camera.name);
+        require(is_finite(camera.to_world), what, "has a transform with elements that are no numbers");
+        require(camera.yfov > 0.0 && camera.yfov < pi, what, "has a field of view outside 0 to 180 degrees");
+        require(camera.aspect >= 0.0 && std::isfinite(camera.aspect), what,
+                "has an aspect ratio that is negative");
+        require(
+            camera.magnification.x > 0.0 && camera.magnification.y > 0.0 && is_finite(camera.magnification),
+            what, "has a magnification that is not positive");
+    }
+}
+
+/// Removes primitives without triangles, and instances of meshes without primitives. Meshes keep their
+/// places.
+void drop_empty(Scene& scene) {
+    for (Mesh& mesh : scene.meshes)
+        std::erase_if(mesh.primitives, [](const Primitive& p) { return p.triangles.empty(); });
+    std::erase_if(scene.instances,
+                  [&](const MeshInstance& i) { return scene.meshes[i.mesh].primitives.empty(); });
+}
+
+}  // namespace
+
+std::size_t validate(Scene& scene) {
+    check_images(scene);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        check_material(scene, scene.materials[i], label("Material", i, scene.materials[i].name));
+    std::size_t dropped = 0;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        for (std::size_t k = 0; k < scene.meshes[i].primitives.size(); ++k)
+            dropped +=
+                check_primitive(scene, scene.meshes[i].primitives[k],
+                                label("Mesh", i, scene.meshes[i].name) + ", primitive " + std::to_string(k));
+    check_placed(scene);
+    drop_empty(scene);
+    const Bounds bounds = bounds_of(scene);
+    require(
+        bounds.empty() || (is_finite(bounds.lo) && is_finite(bounds.hi) && glm::length(bounds.size()) < 1e30),
+        "The scene", "is too large: its bounds are beyond 1e30");
+    return dropped;
+}
+
+}  // namespace triad
