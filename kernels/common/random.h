@@ -6,9 +6,12 @@
  * index shuffled anew for each set (Burley 2020, "Practical Hash-based Owen Scrambling"; the hash is Laine
  * and Karras's with Vegdahl's constants, as in pbrt-v4's FastOwenScrambler). Sets beyond are hashed.
  *
- * The plan of the path tracer: set 0 pixel, 1 lens, 2 (wavelength, time), and for bounce b
- *   SAMPLER_BOUNCE(b) + 0 direction of the BSDF, + 1 (lobe, roulette), + 2 (choice of light, spare), + 3
- * point on it.
+ * The plan of the path tracer: set 0 pixel, 1 lens, 2 (wavelength, time), and for bounce b SAMPLER_BOUNCE(b)
+ * plus
+ * - 0: direction of the BSDF
+ * - 1: (lobe, roulette)
+ * - 2: (choice of light, spare)
+ * - 3: point on the light
  */
 #ifndef TRIAD_COMMON_RANDOM_H
 #define TRIAD_COMMON_RANDOM_H
@@ -97,7 +100,8 @@ TRIAD_FUNCTION Sampler sampler_make(uint pixel, uint index, uint index_high, uin
 }
 
 TRIAD_FUNCTION uint2 sampler_2d_bits(const Sampler* s, uint set) {
-    if (set >= SAMPLER_SOBOL_SETS) return random_pcg4d((uint4)(s->key0, s->index_reversed, set, s->key1)).xy;
+    if (set >= SAMPLER_SOBOL_SETS)
+        return random_pcg4d((uint4)(s->key0, random_mix(s->index_reversed), set, s->key1)).xy;
     uint hash = random_mix(s->key0 ^ (set * 0x9e3779b9u));
     /* Owen-scrambled van der Corput numbers are a shuffled index with its bits reversed */
     uint index = random_reverse_bits(random_owen_reversed(s->index_reversed, hash));
