@@ -35,12 +35,14 @@ TRIAD_FUNCTION float ggx_cap(float3 wo, float alpha) {
 TRIAD_FUNCTION float3 ggx_sample(float3 wo, float alpha, float stretch, float k, float2 u) {
     float inv = 1.0f / stretch;
     float3 w = (float3)(alpha * wo.x * inv, alpha * wo.y * inv, wo.z * inv);
-    float z = fma(1.0f - u.y, fma(k, w.z, 1.0f), -k * w.z);
-    float r = math_sqrt((1.0f - z) * (1.0f + z));
+    /* h = cap point + w; sums of positive terms for h.z and 1 + z: at small alpha their cancellation would
+     * turn h away */
+    float h_z = fma(1.0f - u.y, fma(k, w.z, 1.0f), (1.0f - k) * w.z);
+    float one_plus_z = h_z + fma(w.x, w.x, w.y * w.y) / (1.0f + w.z);
+    float r = math_sqrt((1.0f + w.z - h_z) * one_plus_z);
     float s, c;
     math_sincos_turns(u.x, &s, &c);
-    /* z + w.z >= (1 - k) w.z is a difference: below half an ulp it may vanish, never go under */
-    float3 h = (float3)(alpha * fma(r, c, w.x), alpha * fma(r, s, w.y), math_max(z + w.z, 1e-7f));
+    float3 h = (float3)(alpha * fma(r, c, w.x), alpha * fma(r, s, w.y), h_z);
     return math_normalize(h);
 }
 

@@ -1,0 +1,148 @@
+// Frames and the maps from the unit square to the shapes that are sampled.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "shading_fixture.h"
+
+using namespace triad;
+
+namespace {
+
+using Vector = std::array<float, 4>;  // float4
+
+std::vector<Vector> unit_vectors(std::size_t count) {
+    std::mt19937 generator(1);
+    std::normal_distribution<double> normal;
+    std::vector<Vector> vectors;
+    for (std::size_t i = 0; i < count; ++i) {
+        dvec3 v(normal(generator), normal(generator), normal(generator));
+        // a quarter near +z and -z each, where the naive construction breaks
+        if (i % 4 < 2) v = dvec3(v.x * std::pow(10.0, -double(i % 23) / 2), v.y * 1e-4, i % 4 ? 1 : -1);
+        v = glm::normalize(v);
+        vectors.push_back({float(v.x), float(v.y), float(v.z), 0});
+    }
+    vectors[0] = {0, 0, -1, 0}, vectors[1] = {0, 0, 1, 0}, vectors[2] = {1, 0, 0, 0},
+    vectors[3] = {0, -1, -0.0f, 0};
+    return vectors;
+}
+
+TEST(Frame, is_orthonormal_for_every_normal) {
+    const char* const source = R"(#include "common/frame.h"
+__kernel void frames(__global float4* out, __global const float4* normals, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const ShadingFrame f = frame_make(normals[i].xyz);
+    out[4 * i] = (float4)(f.x, 0.0f);
+    out[4 * i + 1] = (float4)(f.y, 0.0f);
+    out[4 * i + 2] = (float4)(f.z, 0.0f);
+    const float3 v = (float3)(0.36f, -0.48f, 0.8f);
+    out[4 * i + 3] = (float4)(frame_to_local(&f, frame_to_world(&f, v)) - v, 0.0f);
+}
+)";
+    const auto normals = unit_vectors(1 << 18);
+    const auto rows = run_kernel<Vector>(source, "frames", Arguments().add(test_device().upload(normals)),
+                                         normals.size(), 4);
+    const auto at = [&](std::size_t i) { return dvec3(rows[i][0], rows[i][1], rows[i][2]); };
+    double worst = 0;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+        const dvec3 x = at(4 * i), y = at(4 * i + 1), z = at(4 * i + 2);
+        for (double error :
+             {glm::dot(x, y), glm::dot(y, z), glm::dot(z, x), glm::dot(x, x) - 1, glm::dot(y, y) - 1,
+              glm::dot(glm::cross(x, y), z) - 1, glm::length(at(4 * i + 3))})
+            worst = std::max(worst, std::abs(error));
+    }
+    EXPECT_LE(worst, 1e-6);
+}
+
+/// Draws 2^18 points with `expression` of (float2 u) giving (cell u, cell v, error) and checks the counts of
+/// 32 x 32 cells against `expected`, the share of each.
+void expect_distribution(const std::string& expression, const std::function<double(int, int)>& share) {
+    const std::string source = R"(#include "common/random.h"
+#include "common/sampling.h"
+__kernel void draw(__global float4* out, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Sampler s = sampler_make(0u, i, 0u, 0u, 5u);
+    const float2 u = sampler_2d(&s, SAMPLER_SOBOL_SETS);
+    float3 w;
+    )" + expression + R"(
+    out[i] = (float4)(w, 0.0f);
+}
+)";
+    const std::size_t count = 1 << 18;
+    const int n = 32;
+    const auto points = run_kernel<Vector>(source, "draw", {}, count);
+    std::vector<double> counts(n * n), expected(n * n);
+    for (const Vector& p : points) {
+        ASSERT_TRUE(p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1) << expression << p[0] << " " << p[1];
+        EXPECT_LE(std::abs(p[2]), 1e-6) << expression;
+        ++counts[std::min(n - 1, int(p[0] * n)) * n + std::min(n - 1, int(p[1] * n))];
+    }
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) expected[i * n + j] = count * share(i, j);
+    EXPECT_LT(chi_square_z(counts, expected), chi_square_limit) << expression;
+}
+
+const std::string turn = "math_saturate(0.5f + math_atan2(w.y, w.x) / MATH_TWO_PI)";
+const std::string length_error = "math_dot(w, w) - 1.0f";
+
+TEST(Sampling, disc_is_uniform) {
+    expect_distribution(
+        "float2 d = sampling_disc(u); w = (float3)(d, 0.0f);"
+        "w = (float3)(math_min(math_dot(w, w), 1.0f)," +
+            turn + ", 0.0f);",
+        [](int, int) { return 1.0 / 1024; });
+}
+
+TEST(Sampling, hemisphere_is_cosine_weighted) {
+    // the pdf is z / pi: z^2 is uniform
+    expect_distribution(
+        "w = sampling_cosine(u); w = (float3)(w.z * w.z, " + turn + ", " + length_error + ");",
+        [](int, int) { return 1.0 / 1024; });
+}
+
+TEST(Sampling, triangle_is_uniform) {
+    // share of the cell (i, j) of the unit square that lies below the diagonal
+    expect_distribution("w = (float3)(sampling_triangle(u), 0.0f);", [](int i, int j) {
+        return i + j < 31 ? 2.0 / 1024 : i + j == 31 ? 1.0 / 1024 : 0.0;
+    });
+}
+
+TEST(Sampling, sphere_is_uniform) {
+    expect_distribution(
+        "w = sampling_sphere(u); w = (float3)(0.5f - 0.5f * w.z, " + turn + ", " + length_error + ");",
+        [](int, int) { return 1.0 / 1024; });
+}
+
+TEST(Sampling, cones_are_uniform_however_small) {
+    // sin^2 / (1 + cos) of the direction over that of the cone is uniform
+    for (const char* sin2 : {"1.0f", "0.25f", "1e-4f", "1e-10f"})
+        expect_distribution(
+            std::string("float m = sampling_one_minus_cos(") + sin2 +
+                "); w = sampling_cone(u, m); float t = sampling_one_minus_cos(w.x * w.x + w.y * w.y) / m;"
+                "w = (float3)(math_min(t, 1.0f), " +
+                turn + ", " + length_error + ");",
+            [](int, int) { return 1.0 / 1024; });
+}
+
+TEST(Sampling, solid_angles_of_small_cones_keep_their_digits) {
+    // C13: sphere of radius r at distance 1, r = 1 .. 1e-6
+    const char* const source = R"(#include "common/sampling.h"
+__kernel void omega(__global float* out, __global const float* r, uint count) {
+    const uint i = get_global_id(0);
+    if (i < count) out[i] = 1.0f / sampling_cone_pdf(sampling_one_minus_cos(r[i] * r[i]));
+}
+)";
+    std::vector<float> radii;
+    for (float r = 1; r > 1e-6f; r *= 0.9f) radii.push_back(r);
+    const auto omega =
+        run_kernel<float>(source, "omega", Arguments().add(test_device().upload(radii)), radii.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+        const double half = std::sin(0.5 * std::asin(double(radii[i])));
+        EXPECT_NEAR(omega[i] / (4 * pi * half * half), 1, 1e-6) << radii[i];
+    }
+}
+
+}  // namespace
