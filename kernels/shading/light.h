@@ -1,0 +1,127 @@
+/* Light sampling: one light by its share of the power, then a point or direction on it. */
+#ifndef TRIAD_SHADING_LIGHT_H
+#define TRIAD_SHADING_LIGHT_H
+
+#include "common/sampling.h"
+#include "shading/environment.h"
+#include "shading/surface.h"
+
+typedef struct LightSample {
+    float3 direction; /* unit, towards the light */
+    float3 target;    /* point on the light, when `distant` is 0 */
+    float3 weight;    /* incident radiance / pdf (delta lights: irradiance per cosine / probability of the pick) */
+    float pdf;        /* solid angle, the pick included; 0: a delta light, which no other sampling finds */
+    int distant;
+} LightSample;
+
+/* Density in solid angle, seen from p, with which light_sample draws the point at distance^2 on a triangle light.
+ * `cosine` is the absolute cosine at the light. */
+TRIAD_FUNCTION float light_triangle_pdf(const Light* light, float distance2, float cosine) {
+    return light->pick * distance2 / (light->area * cosine);
+}
+
+#if TRIAD_TRIANGLE_LIGHTS
+TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light, float3 p, float2 u, LightSample* s) {
+    const float2 b = sample_triangle(u);
+    const float3 e1 = (float3)(light->edge1[0], light->edge1[1], light->edge1[2]);
+    const float3 e2 = (float3)(light->edge2[0], light->edge2[1], light->edge2[2]);
+    float3 q = (float3)(light->position[0], light->position[1], light->position[2]) + e1 * b.x + e2 * b.y;
+    const float3 any = (float3)(0.0f);
+    float3 n = normalize_or(cross3(normalize_or(e1, any), normalize_or(e2, any)), any);
+    const float3 d = q - p;
+    s->direction = normalize_or(d, any);
+    float cosine = -dot3(n, s->direction);
+    if (cosine < 0.0f && (light->flags & MATERIAL_DOUBLE_SIDED)) {
+        cosine = -cosine;
+        n = -n;
+    }
+    const float distance2 = dot3(d, d);
+    if (!(cosine > 0.0f) || !(distance2 > 0.0f)) return 0;
+    float3 radiance = (float3)(light->colour[0], light->colour[1], light->colour[2]);
+#if TRIAD_TEXTURES
+    const Triangle t = scene->triangles[light->primitive];
+    const Geometry g = scene->geometries[t.geometry];
+    global const Material* m = scene->materials + g.material;
+    if (m->emission_use != TRIAD_NONE) {
+        float2 uv0, uv1;
+        float4 colour;
+        surface_attributes(scene, &g, &t, b.x, b.y, &uv0, &uv1, &colour);
+        radiance = surface_emission(scene, m, uv0, uv1);
+    }
+#endif
+    s->pdf = light_triangle_pdf(light, distance2, cosine);
+    s->weight = radiance * (light->area * cosine / (distance2 * light->pick));
+    /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */
+    s->target = q + n * (32.0f * 0x1.0p-23f * max_abs3(q));
+    s->distant = 0;
+    return 1;
+}
+#endif
+
+#if TRIAD_PUNCTUAL_LIGHTS
+/* KHR_lights_punctual. */
+TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSample* s) {
+    const float3 colour = (float3)(light->colour[0], light->colour[1], light->colour[2]);
+    const float3 axis = (float3)(light->edge1[0], light->edge1[1], light->edge1[2]);
+    s->pdf = 0.0f;
+    if (light->type == LIGHT_DIRECTIONAL) {
+        s->direction = -axis;
+        s->weight = colour * (1.0f / light->pick);
+        s->distant = 1;
+        return 1;
+    }
+    s->target = (float3)(light->position[0], light->position[1], light->position[2]);
+    s->distant = 0;
+    const float3 d = s->target - p;
+    const float distance2 = dot3(d, d);
+    if (!(distance2 > 0.0f)) return 0;
+    s->direction = normalize_or(d, (float3)(0.0f));
+    float attenuation = 1.0f / distance2;
+    if (light->range > 0.0f) {
+        const float r2 = distance2 / (light->range * light->range);
+        attenuation *= clamp(1.0f - r2 * r2, 0.0f, 1.0f);
+    }
+    if (light->type == LIGHT_SPOT) {
+        const float cone = clamp(fma(-dot3(axis, s->direction), light->cone_scale, light->cone_offset), 0.0f, 1.0f);
+        attenuation *= cone * cone;
+    }
+    s->weight = colour * (attenuation / light->pick);
+    return attenuation > 0.0f;
+}
+#endif
+
+/* Draws a light and a direction to it from p: `pick` and `u` are uniform 32-bit integers. 0 when nothing arrives. */
+TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u, LightSample* s) {
+    float unused;
+    const uint index = cdf_find(scene->light_cdf, scene->frame->light_count, pick, &unused);
+    const Light light = scene->lights[index];
+#if TRIAD_TRIANGLE_LIGHTS
+    if (light.type == LIGHT_TRIANGLE) return light_sample_triangle(scene, &light, p, random_float2(u), s);
+#endif
+#if TRIAD_PUNCTUAL_LIGHTS
+    if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT || light.type == LIGHT_DIRECTIONAL)
+        return light_sample_punctual(&light, p, s);
+#endif
+#if TRIAD_ENVIRONMENT_MAP
+    if (light.type == LIGHT_ENVIRONMENT) {
+        const Environment e = scene->frame->environment;
+        float2 uv;
+        float pdf;
+        s->direction = environment_sample(scene, &e, u, &uv, &pdf);
+        s->pdf = pdf * light.pick;
+        s->weight = environment_lookup(scene, &e, uv) * (1.0f / s->pdf);
+        s->distant = 1;
+        return s->pdf > 0.0f;
+    }
+#endif
+    return 0;
+}
+
+/* Power heuristic with exponent 2 for a sample of density p against one of density q (Veach 1997, eq. 9.12); the form
+ * survives densities whose squares overflow. q infinite or p 0: weight 0. */
+TRIAD_FUNCTION float power_heuristic(float p, float q) {
+    const float r = q / p;
+    return 1.0f / fma(r, r, 1.0f);
+}
+
+#endif
