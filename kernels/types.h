@@ -245,22 +245,9 @@ typedef struct Frame {
     uint light_count;
     float quanta; /* fixed-point units per unit of radiance: a power of two */
     uint root;    /* node of the world's tree */
-    float feature_quanta[2]; /* the same for positions and depths: a power of two and its inverse */
-    uint unused[2];
+    uint unused[4];
 } Frame;
 TRIAD_SIZE(Frame, 192);
-
-/* One launch: pixels [first_pixel, first_pixel + pixel_count) of the crop in tile order, samples [first_sample,
- * first_sample + sample_count) of each. Sample s of a pixel falls into bin (s % bins) (permuted), half (s / bins) & 1. */
-typedef struct Launch {
-    uint first_pixel;
-    uint pixel_count;
-    uint first_sample;
-    uint sample_count;
-    uint first_sample_high; /* upper 32 bits of the 64-bit sample index */
-    uint unused[3];
-} Launch;
-TRIAD_SIZE(Launch, 32);
 
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4

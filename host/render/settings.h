@@ -1,6 +1,7 @@
 #pragma once
 /// What decides a picture, beside the scene.
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "scene/view.h"
@@ -18,6 +19,9 @@ struct RenderSettings {
     View view;
     double environment_rotation = 0.0;  ///< radians about +y
     double environment_strength = 1.0;
+    /// Meshes that are placed more than once are flattened (faster) while the scene stays below this many
+    /// triangles, and instanced (smaller) beyond.
+    std::size_t flatten_below = 2'000'000;
 };
 
 }  // namespace triad

@@ -5,9 +5,11 @@
 #include "common/sampling.h"
 #include "shading/scene.h"
 
-/* The ray through film position (x, y), in pixels of the full picture, y down. u: lens sample, uniform in [0, 1)^2. */
+/* The ray through film position (x, y), in pixels of the full picture, y down. u: lens sample, uniform in [0,
+ * 1)^2. */
 TRIAD_FUNCTION Ray camera_ray(const Camera* c, float x, float y, float2 u) {
-    const float3 right = (float3)(c->right[0], c->right[1], c->right[2]), up = (float3)(c->up[0], c->up[1], c->up[2]);
+    const float3 right = (float3)(c->right[0], c->right[1], c->right[2]),
+                 up = (float3)(c->up[0], c->up[1], c->up[2]);
     const float3 forward = (float3)(c->forward[0], c->forward[1], c->forward[2]);
     const float sx = fma(x / c->pixels[0], 2.0f, -1.0f) * c->extent[0];
     const float sy = fma(y / c->pixels[1], -2.0f, 1.0f) * c->extent[1];
@@ -20,7 +22,7 @@ TRIAD_FUNCTION Ray camera_ray(const Camera* c, float x, float y, float2 u) {
     }
 #if TRIAD_LENS
     if (c->lens_radius > 0.0f) {
-        const float2 lens = sample_disc(u) * c->lens_radius;
+        const float2 lens = sampling_disc(u) * c->lens_radius;
         const float3 shift = right * lens.x + up * lens.y;
         origin += shift;
         direction -= shift * (1.0f / c->focus_distance);

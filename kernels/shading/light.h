@@ -2,6 +2,7 @@
 #ifndef TRIAD_SHADING_LIGHT_H
 #define TRIAD_SHADING_LIGHT_H
 
+#include "common/random.h"
 #include "common/sampling.h"
 #include "shading/environment.h"
 #include "shading/surface.h"
@@ -9,33 +10,35 @@
 typedef struct LightSample {
     float3 direction; /* unit, towards the light */
     float3 target;    /* point on the light, when `distant` is 0 */
-    float3 weight;    /* incident radiance / pdf (delta lights: irradiance per cosine / probability of the pick) */
-    float pdf;        /* solid angle, the pick included; 0: a delta light, which no other sampling finds */
+    float3
+        weight; /* incident radiance / pdf (delta lights: irradiance per cosine / probability of the pick) */
+    float pdf;  /* solid angle, the pick included; 0: a delta light, which no other sampling finds */
     int distant;
 } LightSample;
 
-/* Density in solid angle, seen from p, with which light_sample draws the point at distance^2 on a triangle light.
- * `cosine` is the absolute cosine at the light. */
+/* Density in solid angle, seen from p, with which light_sample draws the point at distance^2 on a triangle
+ * light. `cosine` is the absolute cosine at the light. */
 TRIAD_FUNCTION float light_triangle_pdf(const Light* light, float distance2, float cosine) {
     return light->pick * distance2 / (light->area * cosine);
 }
 
 #if TRIAD_TRIANGLE_LIGHTS
-TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light, float3 p, float2 u, LightSample* s) {
-    const float2 b = sample_triangle(u);
+TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light, float3 p, float2 u,
+                                         LightSample* s) {
+    const float2 b = sampling_triangle(u);
     const float3 e1 = (float3)(light->edge1[0], light->edge1[1], light->edge1[2]);
     const float3 e2 = (float3)(light->edge2[0], light->edge2[1], light->edge2[2]);
     float3 q = (float3)(light->position[0], light->position[1], light->position[2]) + e1 * b.x + e2 * b.y;
     const float3 any = (float3)(0.0f);
-    float3 n = normalize_or(cross3(normalize_or(e1, any), normalize_or(e2, any)), any);
+    float3 n = normalize_or(math_cross(normalize_or(e1, any), normalize_or(e2, any)), any);
     const float3 d = q - p;
     s->direction = normalize_or(d, any);
-    float cosine = -dot3(n, s->direction);
+    float cosine = -math_dot(n, s->direction);
     if (cosine < 0.0f && (light->flags & MATERIAL_DOUBLE_SIDED)) {
         cosine = -cosine;
         n = -n;
     }
-    const float distance2 = dot3(d, d);
+    const float distance2 = math_dot(d, d);
     if (!(cosine > 0.0f) || !(distance2 > 0.0f)) return 0;
     float3 radiance = (float3)(light->colour[0], light->colour[1], light->colour[2]);
 #if TRIAD_TEXTURES
@@ -73,7 +76,7 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSamp
     s->target = (float3)(light->position[0], light->position[1], light->position[2]);
     s->distant = 0;
     const float3 d = s->target - p;
-    const float distance2 = dot3(d, d);
+    const float distance2 = math_dot(d, d);
     if (!(distance2 > 0.0f)) return 0;
     s->direction = normalize_or(d, (float3)(0.0f));
     float attenuation = 1.0f / distance2;
@@ -82,7 +85,8 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSamp
         attenuation *= clamp(1.0f - r2 * r2, 0.0f, 1.0f);
     }
     if (light->type == LIGHT_SPOT) {
-        const float cone = clamp(fma(-dot3(axis, s->direction), light->cone_scale, light->cone_offset), 0.0f, 1.0f);
+        const float cone =
+            clamp(fma(-math_dot(axis, s->direction), light->cone_scale, light->cone_offset), 0.0f, 1.0f);
         attenuation *= cone * cone;
     }
     s->weight = colour * (attenuation / light->pick);
@@ -90,13 +94,15 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSamp
 }
 #endif
 
-/* Draws a light and a direction to it from p: `pick` and `u` are uniform 32-bit integers. 0 when nothing arrives. */
+/* Draws a light and a direction to it from p: `pick` and `u` are uniform 32-bit integers. 0 when nothing
+ * arrives. */
 TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u, LightSample* s) {
     float unused;
     const uint index = cdf_find(scene->light_cdf, scene->frame->light_count, pick, &unused);
     const Light light = scene->lights[index];
 #if TRIAD_TRIANGLE_LIGHTS
-    if (light.type == LIGHT_TRIANGLE) return light_sample_triangle(scene, &light, p, random_float2(u), s);
+    if (light.type == LIGHT_TRIANGLE)
+        return light_sample_triangle(scene, &light, p, (float2)(random_float(u.x), random_float(u.y)), s);
 #endif
 #if TRIAD_PUNCTUAL_LIGHTS
     if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT || light.type == LIGHT_DIRECTIONAL)
@@ -117,8 +123,8 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
     return 0;
 }
 
-/* Power heuristic with exponent 2 for a sample of density p against one of density q (Veach 1997, eq. 9.12); the form
- * survives densities whose squares overflow. q infinite or p 0: weight 0. */
+/* Power heuristic with exponent 2 for a sample of density p against one of density q (Veach 1997, eq. 9.12);
+ * the form survives densities whose squares overflow. q infinite or p 0: weight 0. */
 TRIAD_FUNCTION float power_heuristic(float p, float q) {
     const float r = q / p;
     return 1.0f / fma(r, r, 1.0f);

@@ -1,5 +1,6 @@
-/* The scene as kernels see it: one private struct of the global arrays, so that functions take one pointer (it inlines
- * away). SCENE_PARAMETERS is the order in which the host binds them (host/render/pack.cpp, PackedScene::arguments). */
+/* The scene as kernels see it: one private struct of the global arrays, so that functions take one pointer
+ * (it inlines away). SCENE_PARAMETERS is the order in which the host binds them (host/render/pack.cpp,
+ * PackedScene::arguments). */
 #ifndef TRIAD_SHADING_SCENE_H
 #define TRIAD_SHADING_SCENE_H
 
@@ -22,31 +23,32 @@ typedef struct Scene {
     global const TextureUse* texture_uses;
     global const Texture* textures;
     global const uint* texels;
-    global const float* srgb;        /* decoded value of every byte of an sRGB texel */
-    global const float* albedo;      /* directional-albedo tables of shading/bsdf.h */
+    global const float* srgb;   /* decoded value of every byte of an sRGB texel */
+    global const float* albedo; /* directional-albedo tables of shading/bsdf.h */
     global const Light* lights;
-    global const uint* light_cdf;    /* light_count + 1 bounds, in units of 2^-32 (the last one is 2^32 - 1) */
-    global const float* env_texels;  /* float[3] per texel */
-    global const uint* env_rows;     /* height + 1 bounds over rows */
-    global const uint* env_columns;  /* (width + 1) bounds per row */
+    global const uint* light_cdf;   /* light_count + 1 bounds, in units of 2^-32 (the last one is 2^32 - 1) */
+    global const float* env_texels; /* float[3] per texel */
+    global const uint* env_rows;    /* height + 1 bounds over rows */
+    global const uint* env_columns; /* (width + 1) bounds per row */
     global const float* env_cosines; /* height + 1: cosine of the polar angle of the rows' borders */
 } Scene;
 
-#define SCENE_PARAMETERS                                                                                       \
-    global const Frame *frame, global const BvhNode *nodes, global const TriangleBlock *blocks,                \
-        global const Instance *instances, global const Triangle *triangles, global const Geometry *geometries, \
-        global const float *positions, global const float *normals, global const float *tangents,              \
-        global const float *uvs, global const float *colours, global const Material *materials,                \
-        global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels,      \
-        global const float *srgb, global const float *albedo, global const Light *lights,                      \
-        global const uint *light_cdf, global const float *env_texels, global const uint *env_rows,             \
-        global const uint *env_columns, global const float *env_cosines
+#define SCENE_PARAMETERS                                                                               \
+    global const Frame *frame, global const BvhNode *nodes, global const TriangleBlock *blocks,        \
+        global const Instance *instances, global const Triangle *triangles,                            \
+        global const Geometry *geometries, global const float *positions, global const float *normals, \
+        global const float *tangents, global const float *uvs, global const float *colours,            \
+        global const Material *materials, global const TextureUse *texture_uses,                       \
+        global const Texture *textures, global const uint *texels, global const float *srgb,           \
+        global const float *albedo, global const Light *lights, global const uint *light_cdf,          \
+        global const float *env_texels, global const uint *env_rows, global const uint *env_columns,   \
+        global const float *env_cosines
 
-#define SCENE_FROM_PARAMETERS                                                                             \
-    {                                                                                                     \
-        frame, nodes, blocks, instances, triangles, geometries, positions, normals, tangents, uvs,        \
-            colours, materials, texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, \
-            env_rows, env_columns, env_cosines                                                            \
+#define SCENE_FROM_PARAMETERS                                                                               \
+    {                                                                                                       \
+        frame, nodes, blocks, instances, triangles, geometries, positions, normals, tangents, uvs, colours, \
+            materials, texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels,         \
+            env_rows, env_columns, env_cosines                                                              \
     }
 
 TRIAD_FUNCTION float3 load3(global const float* values, uint index) { return vload3(index, values); }
@@ -68,20 +70,15 @@ TRIAD_FUNCTION float3 transform_normal(global const float* inverse, float3 n) {
                     fma(inverse[2], n.x, fma(inverse[6], n.y, inverse[10] * n.z)));
 }
 
-TRIAD_FUNCTION float luminance(float3 c) { return fma(0.2126f, c.x, fma(0.7152f, c.y, 0.0722f * c.z)); }
-TRIAD_FUNCTION float max_component(float3 c) {
-    const float a = c.x > c.y ? c.x : c.y;
-    return a > c.z ? a : c.z;
-}
-TRIAD_FUNCTION float max_abs3(float3 a) { return max_component(fabs(a)); }
+TRIAD_FUNCTION float max_abs3(float3 a) { return math_max3(fabs(a)); }
 
-/* v / |v|, or `fallback` when v is zero. Scaled by a power of two first, so that no square under- or overflows and
- * scaling v by a power of two changes no bit. */
+/* v / |v|, or `fallback` when v is zero. Scaled by a power of two first, so that no square under- or
+ * overflows and scaling v by a power of two changes no bit. */
 TRIAD_FUNCTION float3 normalize_or(float3 v, float3 fallback) {
     const uint exponent = as_uint(max_abs3(v)) & 0x7f800000u;
     if (exponent == 0u || exponent >= 0x7f000000u) return fallback;
     v *= as_float(0x7f000000u - exponent);
-    return v * (1.0f / sqrt(dot3(v, v)));
+    return v * (1.0f / sqrt(math_dot(v, v)));
 }
 
 #endif

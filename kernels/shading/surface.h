@@ -9,7 +9,7 @@ typedef struct Surface {
     float3 position;
     float3 geometric_normal; /* unit, on the front side */
     float3 shading_normal;   /* unit, on the front side */
-    float offset;            /* how far a new ray starts off the surface: bounds the rounding error of position */
+    float offset; /* how far a new ray starts off the surface: bounds the rounding error of position */
     uint geometry, material;
     float2 uv0, uv1;
     float3 base_colour;
@@ -18,18 +18,20 @@ typedef struct Surface {
 } Surface;
 
 /* UVs and vertex colour of a point, barycentric weights u, v of corners 1 and 2. */
-TRIAD_FUNCTION void surface_attributes(const Scene* scene, const Geometry* g, const Triangle* t, float u, float v,
-                                       float2* uv0, float2* uv1, float4* colour) {
+TRIAD_FUNCTION void surface_attributes(const Scene* scene, const Geometry* g, const Triangle* t, float u,
+                                       float v, float2* uv0, float2* uv1, float4* colour) {
     const float w = 1.0f - u - v;
     *uv0 = (float2)(0.0f);
     *uv1 = (float2)(0.0f);
     *colour = (float4)(1.0f);
 #if TRIAD_TEXTURES
     if (g->uv[0] != TRIAD_NONE)
-        *uv0 = w * vload2(g->uv[0] + t->vertex[0], scene->uvs) + u * vload2(g->uv[0] + t->vertex[1], scene->uvs) +
+        *uv0 = w * vload2(g->uv[0] + t->vertex[0], scene->uvs) +
+               u * vload2(g->uv[0] + t->vertex[1], scene->uvs) +
                v * vload2(g->uv[0] + t->vertex[2], scene->uvs);
     if (g->uv[1] != TRIAD_NONE)
-        *uv1 = w * vload2(g->uv[1] + t->vertex[0], scene->uvs) + u * vload2(g->uv[1] + t->vertex[1], scene->uvs) +
+        *uv1 = w * vload2(g->uv[1] + t->vertex[0], scene->uvs) +
+               u * vload2(g->uv[1] + t->vertex[1], scene->uvs) +
                v * vload2(g->uv[1] + t->vertex[2], scene->uvs);
 #endif
 #if TRIAD_VERTEX_COLOURS
@@ -61,8 +63,8 @@ TRIAD_FUNCTION float surface_coverage(const Scene* scene, uint primitive, float 
 
 #if TRIAD_NORMAL_MAPS
 /* The unit normal n perturbed by the material's normal map, in the tangent frame of the vertices. */
-TRIAD_FUNCTION float3 surface_normal_map(const Scene* scene, const Geometry* g, const Triangle* t, float u, float v,
-                                         const Surface* s, uint instance, float3 n) {
+TRIAD_FUNCTION float3 surface_normal_map(const Scene* scene, const Geometry* g, const Triangle* t, float u,
+                                         float v, const Surface* s, uint instance, float3 n) {
     global const Material* m = scene->materials + g->material;
     if (m->normal_use == TRIAD_NONE || g->tangent == TRIAD_NONE) return n;
     const float4 t0 = vload4(g->tangent + t->vertex[0], scene->tangents);
@@ -79,11 +81,12 @@ TRIAD_FUNCTION float3 surface_normal_map(const Scene* scene, const Geometry* g, 
         handedness = determinant < 0.0f ? -handedness : handedness;
     }
 #endif
-    tangent = normalize_or(tangent - n * dot3(n, tangent), (float3)(0.0f));
-    const float3 bitangent = cross3(n, tangent) * handedness;
-    const float4 texel = texture_use_sample(scene, m->normal_use, s->uv0, s->uv1, (float4)(0.5f, 0.5f, 1.0f, 1.0f));
-    const float3 local = (float3)(fma(2.0f, texel.x, -1.0f) * m->normal_scale, fma(2.0f, texel.y, -1.0f) * m->normal_scale,
-                                  fma(2.0f, texel.z, -1.0f));
+    tangent = normalize_or(tangent - n * math_dot(n, tangent), (float3)(0.0f));
+    const float3 bitangent = math_cross(n, tangent) * handedness;
+    const float4 texel =
+        texture_use_sample(scene, m->normal_use, s->uv0, s->uv1, (float4)(0.5f, 0.5f, 1.0f, 1.0f));
+    const float3 local = (float3)(fma(2.0f, texel.x, -1.0f) * m->normal_scale,
+                                  fma(2.0f, texel.y, -1.0f) * m->normal_scale, fma(2.0f, texel.z, -1.0f));
     return normalize_or(tangent * local.x + bitangent * local.y + n * local.z, n);
 }
 #endif
@@ -102,22 +105,26 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, uint primitive, uint ins
 #if TRIAD_INSTANCES
     if (instance != 0u) {
         global const Instance* placed = scene->instances + instance;
-        const float3 object_normal = cross3(p1 - p0, p2 - p0);
+        const float3 object_normal = math_cross(p1 - p0, p2 - p0);
         reach = 2.0f * max_abs3((float3)(placed->to_world[3], placed->to_world[7], placed->to_world[11]));
         p0 = transform_point(placed->to_world, p0);
         p1 = transform_point(placed->to_world, p1);
         p2 = transform_point(placed->to_world, p2);
-        /* The front of a mirrored mesh stays its front: normals follow the inverse transpose, not the corners. */
-        mirrored = dot3(cross3(p1 - p0, p2 - p0), transform_normal(placed->to_object, object_normal)) < 0.0f ? -1.0f : 1.0f;
+        /* The front of a mirrored mesh stays its front: normals follow the inverse transpose, not the
+         * corners. */
+        mirrored =
+            math_dot(math_cross(p1 - p0, p2 - p0), transform_normal(placed->to_object, object_normal)) < 0.0f
+                ? -1.0f
+                : 1.0f;
     }
 #endif
     const float3 e1 = p1 - p0, e2 = p2 - p0;
     const float3 any = (float3)(0.0f, 1.0f, 0.0f); /* keeps numbers finite where no normal exists */
     /* The edges are made unit first: the product of tiny ones would underflow. */
-    const float3 n = mirrored * normalize_or(cross3(normalize_or(e1, any), normalize_or(e2, any)), any);
+    const float3 n = mirrored * normalize_or(math_cross(normalize_or(e1, any), normalize_or(e2, any)), any);
     s.geometric_normal = n;
     s.position = p0 + e1 * u + e2 * v;
-    reach = max_component((float3)(reach, max_abs3(p0), max_component((float3)(max_abs3(p1), max_abs3(p2), 0.0f))));
+    reach = math_max3((float3)(reach, max_abs3(p0), math_max3((float3)(max_abs3(p1), max_abs3(p2), 0.0f))));
     s.offset = 32.0f * 0x1.0p-23f * reach;
 
     float4 colour;
@@ -136,7 +143,7 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, uint primitive, uint ins
 #if TRIAD_NORMAL_MAPS
     ns = surface_normal_map(scene, &g, &t, u, v, &s, instance, ns);
 #endif
-    s.shading_normal = dot3(ns, n) < 0.0f ? -ns : ns;
+    s.shading_normal = math_dot(ns, n) < 0.0f ? -ns : ns;
 
     global const Material* m = scene->materials + g.material;
     s.base_colour = (float3)(m->base_colour[0], m->base_colour[1], m->base_colour[2]) * colour.xyz;

@@ -16,15 +16,18 @@ TRIAD_FUNCTION uint texture_wrap(int i, int size, uint wrap) {
 TRIAD_FUNCTION float4 texture_texel(const Scene* scene, const Texture* t, uint x, uint y) {
     const uint i = y * t->width + x;
     if (t->format == TEXTURE_RGBA16) {
-        const uint lo = scene->texels[t->first_texel + 2u * i], hi = scene->texels[t->first_texel + 2u * i + 1u];
+        const uint lo = scene->texels[t->first_texel + 2u * i],
+                   hi = scene->texels[t->first_texel + 2u * i + 1u];
         return (float4)((float)(lo & 0xffffu), (float)(lo >> 16), (float)(hi & 0xffffu), (float)(hi >> 16)) *
                (1.0f / 65535.0f);
     }
     const uint texel = scene->texels[t->first_texel + i];
     const uint r = texel & 0xffu, g = texel >> 8 & 0xffu, b = texel >> 16 & 0xffu;
     const float alpha = (float)(texel >> 24) * (1.0f / 255.0f);
-    if (t->format == TEXTURE_RGBA8_SRGB) return (float4)(scene->srgb[r], scene->srgb[g], scene->srgb[b], alpha);
-    return (float4)((float)r * (1.0f / 255.0f), (float)g * (1.0f / 255.0f), (float)b * (1.0f / 255.0f), alpha);
+    if (t->format == TEXTURE_RGBA8_SRGB)
+        return (float4)(scene->srgb[r], scene->srgb[g], scene->srgb[b], alpha);
+    return (float4)((float)r * (1.0f / 255.0f), (float)g * (1.0f / 255.0f), (float)b * (1.0f / 255.0f),
+                    alpha);
 }
 
 /* Keeps huge and non-finite coordinates from overflowing the conversion to int. */
@@ -51,13 +54,14 @@ TRIAD_FUNCTION float4 texture_sample(const Scene* scene, uint texture, float2 uv
 }
 
 /* Value of a texture use at the two UV sets of a point; `missing` when the use is TRIAD_NONE. */
-TRIAD_FUNCTION float4 texture_use_sample(const Scene* scene, uint use, float2 uv0, float2 uv1, float4 missing) {
+TRIAD_FUNCTION float4 texture_use_sample(const Scene* scene, uint use, float2 uv0, float2 uv1,
+                                         float4 missing) {
     if (use == TRIAD_NONE) return missing;
     const TextureUse t = scene->texture_uses[use];
     const float2 uv = t.uv_set ? uv1 : uv0;
-    return texture_sample(scene, t.texture,
-                          (float2)(fma(t.m[0], uv.x, fma(t.m[1], uv.y, t.m[2])),
-                                   fma(t.m[3], uv.x, fma(t.m[4], uv.y, t.m[5]))));
+    return texture_sample(
+        scene, t.texture,
+        (float2)(fma(t.m[0], uv.x, fma(t.m[1], uv.y, t.m[2])), fma(t.m[3], uv.x, fma(t.m[4], uv.y, t.m[5]))));
 }
 
 #endif

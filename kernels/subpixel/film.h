@@ -1,11 +1,13 @@
-/* The film: order-free sums in 64-bit fixed point. One work-item owns a pixel during a launch, so no atomics. */
+/* The film: order-free sums in 64-bit fixed point. One work-item owns a pixel during a launch, so no atomics.
+ */
 #ifndef TRIAD_SUBPIXEL_FILM_H
 #define TRIAD_SUBPIXEL_FILM_H
 
 #include "common/language.h"
 #include "common/math.h"
 
-/* x in units of the quantum, rounded to nearest; sets *saturated when it would not leave room for other samples. */
+/* x in units of the quantum, rounded to nearest; sets *saturated when it would not leave room for other
+ * samples. */
 TRIAD_FUNCTION long film_fixed(float x, float quanta, uint* saturated) {
     const float q = x * quanta;
     if (q >= 0x1.0p62f || q <= -0x1.0p62f) {

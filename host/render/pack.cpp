@@ -1,0 +1,93 @@
+#include "render/pack.h"
+
+#include <array>
+#include <cmath>
+
+#include "render/albedo_tables.h"
+
+namespace triad {
+namespace {
+
+void copy(float out[3], const dvec3& v) {
+    for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+}  // namespace
+
+PackedScene pack(const Scene& scene, const RenderSettings& settings) {
+    PackedScene packed;
+    pack_geometry(scene, settings, packed);
+    pack_materials(scene, packed);
+    pack_environment(scene, settings, packed);
+    pack_lights(scene, settings, packed);
+    return packed;
+}
+
+dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
+    dev::Frame frame{};
+    dev::Camera& c = frame.camera;
+    const View& view = settings.view;
+    copy(c.origin, view.eye - packed.origin);
+    copy(c.right, view.right);
+    copy(c.up, view.up);
+    copy(c.forward, view.forward);
+    c.lens_radius = static_cast<float>(view.lens_radius);
+    c.focus_distance = static_cast<float>(view.focus_distance);
+    c.projection = view.orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+    c.extent[0] = static_cast<float>(view.extent.x);
+    c.extent[1] = static_cast<float>(view.extent.y);
+    c.pixels[0] = static_cast<float>(settings.width);
+    c.pixels[1] = static_cast<float>(settings.height);
+    frame.environment = packed.environment;
+    const std::array<unsigned, 4> crop =
+        settings.crop[2] ? settings.crop : std::array<unsigned, 4>{0, 0, settings.width, settings.height};
+    std::copy(crop.begin(), crop.end(), frame.crop);
+    frame.bins[0] = settings.bins_x;
+    frame.bins[1] = settings.bins_y;
+    frame.seed = settings.seed;
+    frame.max_depth = settings.max_depth;
+    frame.transparent = settings.transparent;
+    frame.light_count = static_cast<std::uint32_t>(packed.lights.size());
+    frame.quanta = std::ldexp(1.0f, packed.quanta_log2);
+    frame.root = packed.root;
+    return frame;
+}
+
+DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings) {
+    DeviceScene scene;
+    auto add = [&](const auto& values) {
+        const Buffer buffer = device.upload(values);
+        scene.bytes += buffer.bytes();
+        scene.arguments.add(buffer);
+    };
+    std::vector<float> srgb(256);
+    for (int i = 0; i < 256; ++i)
+        srgb[static_cast<std::size_t>(i)] = static_cast<float>(srgb_decode(i / 255.0));
+    // The order of SCENE_PARAMETERS in kernels/shading/scene.h.
+    add(std::vector<dev::Frame>{frame_of(packed, settings)});
+    add(packed.bvh.nodes);
+    add(packed.bvh.blocks);
+    add(packed.instance_table);
+    add(packed.triangles);
+    add(packed.geometries);
+    add(packed.positions);
+    add(packed.normals);
+    add(packed.tangents);
+    add(packed.uvs);
+    add(packed.colours);
+    add(packed.materials);
+    add(packed.texture_uses);
+    add(packed.textures);
+    add(packed.texels);
+    add(srgb);
+    add(albedo_tables());
+    add(packed.lights);
+    add(packed.light_cdf);
+    add(packed.env_texels);
+    add(packed.env_rows);
+    add(packed.env_columns);
+    add(packed.env_cosines);
+    return scene;
+}
+
+}  // namespace triad

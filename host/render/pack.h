@@ -1,0 +1,69 @@
+#pragma once
+/// The only place where the host's scene becomes device structs (kernels/types.h): flattening, trees, lights,
+/// textures.
+#include <optional>
+#include <vector>
+
+#include "bvh/bvh.h"
+#include "device/device.h"
+#include "kernels/types.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace triad {
+
+/// The arrays of kernels/shading/scene.h, on the host.
+struct PackedScene {
+    dvec3 origin{
+        0.0};       ///< the render origin, in world space: subtracted in double before anything becomes float
+    Bounds bounds;  ///< of what is drawn, rebased
+    std::uint32_t root = 0;
+    bool instances = false;      ///< some mesh is instanced rather than flattened
+    std::size_t duplicates = 0;  ///< triangles that coincide exactly with one of a lower id, and were dropped
+    int quanta_log2 = 0;         ///< fixed-point units of the film per unit of radiance
+
+    BvhPool bvh;
+    std::vector<dev::Instance> instance_table;
+    std::vector<dev::Triangle> triangles;
+    std::vector<dev::Geometry> geometries;
+    std::vector<float> positions, normals, tangents, uvs, colours;
+    std::vector<dev::Material> materials;
+    std::vector<dev::TextureUse> texture_uses;
+    std::vector<dev::Texture> textures;
+    std::vector<std::uint32_t> texels;
+    std::vector<dev::Light> lights;
+    std::vector<std::uint32_t> light_cdf;
+    std::vector<float> env_texels, env_cosines;
+    std::vector<std::uint32_t> env_rows, env_columns;
+    dev::Environment environment{};
+};
+
+/// Packs what `settings.view` may see of the scene. Precondition: validate(scene) was called.
+/// Throws Error(scene) with "nothing to render" when nothing is drawn, Error(memory) when an index does not
+/// fit.
+PackedScene pack(const Scene& scene, const RenderSettings& settings);
+
+/// Everything of the picture that is no array.
+dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
+
+/// The packed arrays on a device, in the order of SCENE_PARAMETERS.
+struct DeviceScene {
+    Arguments arguments;
+    std::uint64_t bytes = 0;
+};
+DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings);
+
+/// Bounds of a CDF over weights in units of 2^-32: size + 1 values, first 0, last 2^32 - 1, rising; an entry
+/// of weight zero has an empty interval. All weights zero: every interval but the last is empty.
+std::vector<std::uint32_t> integer_cdf(std::span<const double> weights);
+
+/// The sRGB transfer function's inverse (IEC 61966-2-1).
+double srgb_decode(double encoded);
+
+// Parts of pack(), one file each.
+void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+void pack_materials(const Scene& scene, PackedScene& packed);
+void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+
+}  // namespace triad

@@ -1,0 +1,358 @@
+/* The path tracer as a megakernel: one work-item is one pixel, and loops over the samples of the launch.
+ * Unidirectional paths with next-event estimation, multiple importance sampling and Russian roulette. */
+#include "common/language.h"
+
+#include "common/frame.h"
+#include "common/random.h"
+#include "shading/bsdf.h"
+#include "shading/camera.h"
+#include "shading/coverage.h"
+#include "shading/light.h"
+#include "shading/surface.h"
+#include "subpixel/film.h"
+#include "traversal/traverse.h"
+
+/* Paths of this many edges and more meet Russian roulette. */
+#define ROULETTE_FROM 4u
+/* From here on roulette never lets a path survive for certain, so that none is endless (a ray caught in clear
+ * glass). */
+#define ROULETTE_ALWAYS_FROM 32u
+
+/* What one work-item counts, in registers, for COUNTER_*. */
+typedef struct Tally {
+    uint rays, not_finite, saturated, truncated, cut_energy;
+} Tally;
+
+TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
+    Traversal t;
+    t.nodes = scene->nodes;
+    t.blocks = scene->blocks;
+    t.instances = scene->instances;
+    t.root = scene->frame->root;
+    return t;
+}
+
+/* A ray that leaves a surface to the side of `normal`, and never hits the triangle that it leaves. */
+TRIAD_FUNCTION Ray path_spawn(const Surface* s, float3 normal, const Hit* hit, float3 direction) {
+    const float3 origin = s->position + normal * s->offset;
+    Ray ray;
+    ray.origin[0] = origin.x, ray.origin[1] = origin.y, ray.origin[2] = origin.z;
+    ray.direction[0] = direction.x, ray.direction[1] = direction.y, ray.direction[2] = direction.z;
+    ray.t_max = INFINITY;
+    ray.skip_instance = hit->instance;
+    ray.skip_primitive = hit->primitive;
+    return ray;
+}
+
+/* The same towards a point, short of it by a rounding error. */
+TRIAD_FUNCTION Ray path_spawn_to(const Surface* s, float3 normal, const Hit* hit, float3 target) {
+    const float3 origin = s->position + normal * s->offset;
+    Ray ray = path_spawn(s, normal, hit, target - origin);
+    ray.t_max = 1.0f - 0x1.0p-16f;
+    return ray;
+}
+
+/* The local frame's normal: the shading normal on the side of wo, bent towards wo where interpolation or a
+ * normal map has turned it away, so that the mirror direction of wo stays above the surface as far as it can.
+ */
+TRIAD_FUNCTION float3 path_shading_normal(float3 ns, float3 ng, float3 wo) {
+    const float cosine = math_dot(ns, wo);
+    const float least = 0.02f;
+    if (cosine >= least) return ns;
+    const float3 bent = normalize_or(ns + wo * (least - cosine), ng);
+    return math_dot(bent, wo) > 0.0f ? bent : ng;
+}
+
+/* Radiance and alpha along one camera ray. */
+TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray ray, Tally* tally) {
+    global const Frame* frame = scene->frame;
+    const uint max_depth = frame->max_depth;
+    float3 radiance = (float3)(0.0f), throughput = (float3)(1.0f);
+    float alpha = 1.0f;
+    float pdf =
+        0.0f; /* solid-angle density of the last direction; 0: delta or camera, found by no other sampling */
+    int straight = 1; /* only transmissions so far: the camera looks through */
+    int specular = 1; /* only delta events so far */
+    Traversal traversal = path_traversal(scene);
+#if TRIAD_ALPHA_TEST
+    Coverage coverage;
+    coverage.scene = scene;
+    traversal.context = &coverage;
+#endif
+    for (uint edge = 1u;; ++edge) {
+#if TRIAD_ALPHA_TEST
+        coverage.ray = random_mix(sampler->key0 ^ sampler->index_reversed) + 2u * edge;
+#endif
+        const Hit hit = traverse_closest(&traversal, ray);
+        ++tally->rays;
+        const float3 wo = -(float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
+        if (hit.primitive == TRIAD_NONE) {
+            if (straight && frame->transparent) {
+                alpha = 1.0f - math_saturate((throughput.x + throughput.y + throughput.z) * (1.0f / 3.0f));
+                break;
+            }
+            float light_pdf;
+            const float3 sky = environment_radiance(scene, -wo, &light_pdf);
+            radiance += throughput * sky * (pdf > 0.0f ? power_heuristic(pdf, light_pdf) : 1.0f);
+            break;
+        }
+
+        const Surface s = surface_make(scene, hit.primitive, hit.instance, hit.u, hit.v);
+        global const Material* material = scene->materials + s.material;
+        const uint flags = material->flags;
+        const int back = math_dot(wo, s.geometric_normal) < 0.0f;
+        const float3 ng = back ? -s.geometric_normal : s.geometric_normal;
+#if TRIAD_TRANSMISSION
+        if (back && (flags & MATERIAL_SOLID)) /* the edge ran inside the body: Beer-Lambert */
+            throughput *= (float3)(math_exp(-material->absorption[0] * hit.t),
+                                   math_exp(-material->absorption[1] * hit.t),
+                                   math_exp(-material->absorption[2] * hit.t));
+#endif
+#if TRIAD_UNLIT
+        if (flags &
+            MATERIAL_UNLIT) { /* shows its colour to the camera, directly or in mirrors; black to all else */
+            if (specular) radiance += throughput * s.base_colour;
+            break;
+        }
+#endif
+#if TRIAD_TRIANGLE_LIGHTS
+        const uint first_light = scene->geometries[s.geometry].first_light;
+        if (first_light != TRIAD_NONE && (!back || (flags & MATERIAL_DOUBLE_SIDED))) {
+            float weight = 1.0f;
+            if (pdf > 0.0f) {
+                const Light light =
+                    scene->lights[first_light + hit.primitive - scene->geometries[s.geometry].first_triangle];
+                const float light_pdf = light_triangle_pdf(&light, hit.t * hit.t, math_dot(ng, wo));
+                weight = light.pick > 0.0f ? power_heuristic(pdf, light_pdf) : 1.0f;
+            }
+            radiance += throughput * surface_emission(scene, material, s.uv0, s.uv1) * weight;
+        }
+#endif
+        if (edge == max_depth) {
+            ++tally->truncated;
+            tally->cut_energy += (uint)(math_min(math_luminance(throughput), 65535.0f) * 65536.0f);
+            break;
+        }
+
+        BsdfInput input;
+        input.base_colour = s.base_colour;
+        input.metallic = s.metallic;
+        input.roughness = s.roughness;
+        input.ior = material->ior;
+        input.specular = s.specular;
+        input.specular_colour = s.specular_colour;
+        input.transmission = s.transmission;
+        input.solid = (flags & MATERIAL_SOLID) != 0u;
+        input.inside = (uint)(back && (flags & MATERIAL_SOLID));
+        const float3 ns = path_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo);
+        const ShadingFrame local = frame_make(ns);
+        const float3 wo_local = frame_to_local(&local, wo);
+        const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
+        const uint set = SAMPLER_BOUNCE(edge - 1u);
+
+        if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
+            LightSample light;
+            if (light_sample(scene, s.position, sampler_2d_bits(sampler, set + SAMPLER_LIGHT).x,
+                             sampler_2d_bits(sampler, set + SAMPLER_POINT), &light)) {
+                const float side = math_dot(light.direction, ng);
+                const float3 wi = frame_to_local(&local, light.direction);
+                /* the shading normal must not move light through the surface */
+                if (side * wi.z > 0.0f) {
+                    float bsdf_pdf;
+                    const float3 f = bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
+                    const float weight = light.pdf > 0.0f ? power_heuristic(light.pdf, bsdf_pdf) : 1.0f;
+                    const float3 direct = throughput * f * light.weight * weight;
+                    if (math_max3(direct) > 0.0f) {
+                        const float3 away = side > 0.0f ? ng : -ng;
+#if TRIAD_ALPHA_TEST
+                        coverage.ray += 1u;
+#endif
+                        const Ray shadow = light.distant ? path_spawn(&s, away, &hit, light.direction)
+                                                         : path_spawn_to(&s, away, &hit, light.target);
+                        ++tally->rays;
+                        if (!traverse_occluded(&traversal, shadow)) radiance += direct;
+                    }
+                }
+            }
+        }
+
+        const float2 choice = sampler_2d(sampler, set + SAMPLER_LOBE);
+        const BsdfSample sample =
+            bsdf_sample(&bsdf, wo_local, choice.x, sampler_2d(sampler, set + SAMPLER_DIRECTION));
+        if (sample.event == BSDF_NONE) break;
+        const float3 direction = frame_to_world(&local, sample.wi);
+        const float side = math_dot(direction, ng);
+        if (!(side * sample.wi.z > 0.0f)) break;
+        throughput *= sample.weight;
+        pdf = (sample.event & BSDF_DELTA) ? 0.0f : sample.pdf;
+        straight = straight && (sample.event & BSDF_TRANSMIT);
+        specular = specular && (sample.event & BSDF_DELTA);
+
+        if (edge >= ROULETTE_FROM) {
+            const float most = edge >= ROULETTE_ALWAYS_FROM ? 0.95f : 1.0f;
+            const float survive = math_min(math_max3(throughput), most);
+            if (!(choice.y < survive)) break;
+            throughput *= 1.0f / survive;
+        } else if (!(math_max3(throughput) > 0.0f)) {
+            break;
+        }
+        ray = path_spawn(&s, side > 0.0f ? ng : -ng, &hit, normalize_or(direction, ng));
+    }
+    return (float4)(radiance, alpha);
+}
+
+/* Film position of work-item i of the crop: tiles of 8 x 8 pixels, so that neighbours in a work-group are
+ * neighbours in the picture. Outside the crop (ragged edges): returns 0. */
+TRIAD_FUNCTION int path_pixel(const uint crop[4], uint i, uint* x, uint* y) {
+    const uint tiles = (crop[2] + 7u) / 8u;
+    const uint tile = i / 64u, in_tile = i % 64u;
+    *x = (tile % tiles) * 8u + in_tile % 8u;
+    *y = (tile / tiles) * 8u + in_tile / 8u;
+    return *x < crop[2] && *y < crop[3];
+}
+
+/* Sample s of a pixel: which bin and half it falls into, and its samplers. Within a pixel the bins take
+ * turns, each pixel from another one; the halves take turns after every bin had one. */
+typedef struct SampleName {
+    uint bin, half_index;
+    Sampler position; /* of the film position within the bin */
+    Sampler path;     /* of everything else */
+} SampleName;
+
+TRIAD_FUNCTION SampleName path_sample(const Frame* frame, uint pixel, ulong s) {
+    SampleName name;
+    const uint bins = frame->bins[0] * frame->bins[1];
+#if TRIAD_BINS
+    const ulong round = s / bins;
+    const uint turn = (uint)(s % bins);
+    name.bin = (turn + random_mix(pixel ^ frame->seed) % bins) % bins;
+#else
+    const ulong round = s;
+    const uint turn = 0u;
+    name.bin = 0u;
+#endif
+    name.half_index = (uint)(round & 1ul);
+    const ulong index = (round >> 1) * bins + turn;
+    name.path = sampler_make(pixel, (uint)index, (uint)(index >> 32), name.half_index, frame->seed);
+#if TRIAD_BINS
+    if (bins > 1u) {
+        name.position = sampler_make(pixel, (uint)(round >> 1), (uint)(round >> 33),
+                                     2u + 2u * name.bin + name.half_index, frame->seed);
+        return name;
+    }
+#endif
+    name.position = name.path;
+    return name;
+}
+
+TRIAD_FUNCTION Ray path_camera_ray(const Frame* frame, const SampleName* name, uint x, uint y) {
+    float2 at = sampler_2d(&name->position, SAMPLER_PIXEL);
+#if TRIAD_BINS
+    at.x = (at.x + (float)(name->bin % frame->bins[0])) / (float)frame->bins[0];
+    at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
+#endif
+    const Camera camera = frame->camera;
+    return camera_ray(&camera, (float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y,
+#if TRIAD_LENS
+                      sampler_2d(&name->path, SAMPLER_LENS)
+#else
+                      (float2)(0.0f)
+#endif
+    );
+}
+
+/* Adds samples [first_sample, first_sample + sample_count) of pixels [first_pixel, first_pixel +
+ * pixel_count), numbered as in path_pixel, to the film. */
+kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_sums, global uint* samples,
+                        volatile global uint* counters, uint first_pixel, uint pixel_count,
+                        uint first_sample_low, uint first_sample_high, uint sample_count) {
+    const size_t item = get_global_id(0);
+    if (item >= pixel_count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Frame local_frame = *frame;
+    uint x, y;
+    if (!path_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
+    const uint full_pixel =
+        (local_frame.crop[1] + y) * (uint)local_frame.camera.pixels[0] + local_frame.crop[0] + x;
+    const size_t pixel = (size_t)y * local_frame.crop[2] + x;
+    const uint bins = local_frame.bins[0] * local_frame.bins[1];
+    const ulong first = ((ulong)first_sample_high << 32) | first_sample_low;
+    Tally tally = {0u, 0u, 0u, 0u, 0u};
+    for (uint i = 0u; i < sample_count; ++i) {
+        const SampleName name = path_sample(&local_frame, full_pixel, first + i);
+        const Ray ray = path_camera_ray(&local_frame, &name, x, y);
+        const float4 value = path_trace(&scene, &name.path, ray, &tally);
+        if (!film_is_finite(value)) {
+            ++tally.not_finite;
+            continue;
+        }
+        uint saturated = 0u;
+        const long r = film_fixed(value.x, local_frame.quanta, &saturated);
+        const long g = film_fixed(value.y, local_frame.quanta, &saturated);
+        const long b = film_fixed(value.z, local_frame.quanta, &saturated);
+        const long a = film_fixed(value.w, local_frame.quanta, &saturated);
+        tally.saturated += saturated;
+        global long* sum = sums + (pixel * bins + name.bin) * FILM_CHANNELS;
+        sum[0] += r, sum[1] += g, sum[2] += b, sum[3] += a;
+        if (name.half_index == 0u) {
+            global long* half_sum = half_sums + pixel * 3;
+            half_sum[0] += r, half_sum[1] += g, half_sum[2] += b;
+        }
+    }
+    samples[pixel] += sample_count;
+    counter_add(counters, COUNTER_RAYS, tally.rays);
+    counter_add(counters, COUNTER_NOT_FINITE, tally.not_finite);
+    counter_add(counters, COUNTER_SATURATED, tally.saturated);
+    counter_add(counters, COUNTER_TRUNCATED, tally.truncated);
+    counter_add(counters, COUNTER_CUT_ENERGY, tally.cut_energy);
+}
+
+/* Means over samples [0, sample_count) of what the camera rays of the same samples meet first: albedo (3
+ * floats per pixel), shading normal (3, world), position (3, rebased), depth along the view (1). Over the
+ * samples that hit. */
+kernel void trace_features(SCENE_PARAMETERS, global float* albedos, global float* normal_means,
+                           global float* position_means, global float* depths, uint first_pixel,
+                           uint pixel_count, uint sample_count) {
+    const size_t item = get_global_id(0);
+    if (item >= pixel_count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Frame local_frame = *frame;
+    uint x, y;
+    if (!path_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
+    const uint full_pixel =
+        (local_frame.crop[1] + y) * (uint)local_frame.camera.pixels[0] + local_frame.crop[0] + x;
+    const size_t pixel = (size_t)y * local_frame.crop[2] + x;
+    const Camera camera = local_frame.camera;
+    const float3 eye = (float3)(camera.origin[0], camera.origin[1], camera.origin[2]);
+    const float3 forward = (float3)(camera.forward[0], camera.forward[1], camera.forward[2]);
+    Traversal traversal = path_traversal(&scene);
+#if TRIAD_ALPHA_TEST
+    Coverage coverage;
+    coverage.scene = &scene;
+    traversal.context = &coverage;
+#endif
+    float3 albedo_sum = (float3)(0.0f), normal_sum = (float3)(0.0f), position_sum = (float3)(0.0f);
+    float depth_sum = 0.0f;
+    uint hits = 0u;
+    for (uint i = 0u; i < sample_count; ++i) {
+        const SampleName name = path_sample(&local_frame, full_pixel, i);
+        const Ray ray = path_camera_ray(&local_frame, &name, x, y);
+#if TRIAD_ALPHA_TEST
+        coverage.ray = random_mix(name.path.key0 ^ name.path.index_reversed) + 2u;
+#endif
+        const Hit hit = traverse_closest(&traversal, ray);
+        if (hit.primitive == TRIAD_NONE) continue;
+        const Surface s = surface_make(&scene, hit.primitive, hit.instance, hit.u, hit.v);
+        const float3 wi = (float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
+        albedo_sum += s.base_colour;
+        normal_sum += math_dot(wi, s.geometric_normal) > 0.0f ? -s.shading_normal : s.shading_normal;
+        position_sum += s.position;
+        depth_sum += math_dot(s.position - eye, forward);
+        ++hits;
+    }
+    const float scale = hits ? 1.0f / (float)hits : 0.0f;
+    vstore3(albedo_sum * (1.0f / (float)sample_count), pixel, albedos);
+    vstore3(normal_sum * scale, pixel, normal_means);
+    vstore3(position_sum * scale, pixel, position_means);
+    depths[pixel] = depth_sum * scale;
+}
