@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "scene/view.h"
 
@@ -23,5 +24,8 @@ struct RenderSettings {
     /// triangles, and instanced (smaller) beyond.
     std::size_t flatten_below = 2'000'000;
 };
+
+/// JSON of every member: equal settings, equal text. What partial renders are compared by.
+std::string text_of(const RenderSettings& settings);
 
 }  // namespace triad

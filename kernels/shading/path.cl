@@ -73,6 +73,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         0.0f; /* solid-angle density of the last direction; 0: delta or camera, found by no other sampling */
     int straight = 1; /* only transmissions so far: the camera looks through */
     int specular = 1; /* only delta events so far */
+    float body_scale =
+        1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
     Coverage coverage;
@@ -145,8 +147,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         input.solid = (flags & MATERIAL_SOLID) != 0u;
         input.inside = (uint)(back && (flags & MATERIAL_SOLID));
         const float3 ns = path_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo);
-        const ShadingFrame local = frame_make(ns);
-        const float3 wo_local = frame_to_local(&local, wo);
+        const ShadingFrame around = frame_make(ns);
+        const float3 wo_local = frame_to_local(&around, wo);
         const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
         const uint set = SAMPLER_BOUNCE(edge - 1u);
 
@@ -155,7 +157,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
             if (light_sample(scene, s.position, sampler_2d_bits(sampler, set + SAMPLER_LIGHT).x,
                              sampler_2d_bits(sampler, set + SAMPLER_POINT), &light)) {
                 const float side = math_dot(light.direction, ng);
-                const float3 wi = frame_to_local(&local, light.direction);
+                const float3 wi = frame_to_local(&around, light.direction);
                 /* the shading normal must not move light through the surface */
                 if (side * wi.z > 0.0f) {
                     float bsdf_pdf;
@@ -180,17 +182,20 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         const BsdfSample sample =
             bsdf_sample(&bsdf, wo_local, choice.x, sampler_2d(sampler, set + SAMPLER_DIRECTION));
         if (sample.event == BSDF_NONE) break;
-        const float3 direction = frame_to_world(&local, sample.wi);
+        const float3 direction = frame_to_world(&around, sample.wi);
         const float side = math_dot(direction, ng);
         if (!(side * sample.wi.z > 0.0f)) break;
         throughput *= sample.weight;
+#if BSDF_TRANSMISSION
+        if (sample.event & BSDF_TRANSMIT) body_scale *= bsdf.body_scale;
+#endif
         pdf = (sample.event & BSDF_DELTA) ? 0.0f : sample.pdf;
         straight = straight && (sample.event & BSDF_TRANSMIT);
         specular = specular && (sample.event & BSDF_DELTA);
 
         if (edge >= ROULETTE_FROM) {
             const float most = edge >= ROULETTE_ALWAYS_FROM ? 0.95f : 1.0f;
-            const float survive = math_min(math_max3(throughput), most);
+            const float survive = math_min(math_max3(throughput) / body_scale, most);
             if (!(choice.y < survive)) break;
             throughput *= 1.0f / survive;
         } else if (!(math_max3(throughput) > 0.0f)) {

@@ -85,9 +85,9 @@ TRIAD_FUNCTION float3 surface_normal_map(const Scene* scene, const Geometry* g, 
     const float3 bitangent = math_cross(n, tangent) * handedness;
     const float4 texel =
         texture_use_sample(scene, m->normal_use, s->uv0, s->uv1, (float4)(0.5f, 0.5f, 1.0f, 1.0f));
-    const float3 local = (float3)(fma(2.0f, texel.x, -1.0f) * m->normal_scale,
-                                  fma(2.0f, texel.y, -1.0f) * m->normal_scale, fma(2.0f, texel.z, -1.0f));
-    return normalize_or(tangent * local.x + bitangent * local.y + n * local.z, n);
+    const float3 mapped = (float3)(fma(2.0f, texel.x, -1.0f) * m->normal_scale,
+                                   fma(2.0f, texel.y, -1.0f) * m->normal_scale, fma(2.0f, texel.z, -1.0f));
+    return normalize_or(tangent * mapped.x + bitangent * mapped.y + n * mapped.z, n);
 }
 #endif
 

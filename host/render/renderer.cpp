@@ -1,0 +1,221 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/error.h"
+#include "base/hash.h"
+#include "base/log.h"
+#include "kernels/types.h"
+#include "render/pack.h"
+
+namespace triad {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr double launch_seconds =
+    0.05;  ///< watchdogs, cancelling and progress want short launches, overhead long ones
+constexpr std::size_t tile =
+    64;  ///< pixels of a tile of 8 x 8: the unit of path_pixel() in kernels/shading/path.cl
+
+void check(const RenderSettings& s) {
+    auto refuse = [](const std::string& what) { throw Error(Exit::usage, what); };
+    if (s.width == 0 || s.height == 0) refuse("The picture has no pixels: --size needs two numbers above 0.");
+    if (s.bins_x == 0 || s.bins_y == 0 || s.bins_x > 16 || s.bins_y > 16)
+        refuse("--bins needs two numbers from 1 to 16.");
+    const auto& c = s.crop;
+    if (c[2] && (c[3] == 0 || std::uint64_t(c[0]) + c[2] > s.width || std::uint64_t(c[1]) + c[3] > s.height))
+        refuse("--crop lies outside the picture of " + std::to_string(s.width) + " x " +
+               std::to_string(s.height) + " pixels.");
+    if (std::uint64_t(s.width) * s.height > 0xffffffffull)
+        refuse("The picture has more than 2^32 pixels; render crops of it.");
+}
+
+}  // namespace
+
+struct Renderer::State {
+    Device& device;
+    RenderSettings settings;
+    PackedScene packed;  // arrays are cleared once they are on the device
+    dev::Frame frame{};
+    DeviceScene scene;
+    Features features;
+    Kernel trace_paths, trace_features;
+    Buffer sums, half_sums, samples, counters;
+    std::size_t items = 0;  ///< pixels of the crop, padded to whole tiles
+    Film film;              ///< without the arrays
+    double build_seconds = 0, compile_seconds = 0;
+    double items_per_second = 0;  ///< samples, measured over the last launches
+
+    State(Device& d, const RenderSettings& s) : device(d), settings(s) {}
+
+    Arguments film_arguments() const {
+        return Arguments().add(scene.arguments).add(sums).add(half_sums).add(samples).add(counters);
+    }
+
+    void launch(std::size_t first_pixel, std::size_t pixels, std::uint64_t first_sample, unsigned count) {
+        device.run(trace_paths,
+                   film_arguments()
+                       .add(std::uint32_t(first_pixel))
+                       .add(std::uint32_t(pixels))
+                       .add(std::uint32_t(first_sample))
+                       .add(std::uint32_t(first_sample >> 32))
+                       .add(std::uint32_t(count)),
+                   pixels);
+    }
+
+    void clear_film() {
+        for (const Buffer* b : {&sums, &half_sums, &samples, &counters}) device.fill_zero(*b);
+    }
+
+    std::array<std::uint64_t, COUNTERS> read_counters() {
+        const auto words = device.download<std::uint32_t>(counters);
+        std::array<std::uint64_t, COUNTERS> values{};
+        for (std::size_t i = 0; i < COUNTERS; ++i)
+            values[i] = words[2 * i] | std::uint64_t(words[2 * i + 1]) << 32;
+        return values;
+    }
+
+    /// One pass: samples [first, first + count) of every pixel, in launches of about launch_seconds.
+    void pass(std::uint64_t first, unsigned count) {
+        for (std::size_t pixel = 0; pixel < items;) {
+            const double fit = items_per_second * launch_seconds / count;
+            const std::size_t wanted =
+                items_per_second > 0 ? static_cast<std::size_t>(std::max(fit, 1.0)) : 16 * tile;
+            const std::size_t pixels = std::min(items - pixel, (wanted + tile - 1) / tile * tile);
+            const auto start = Clock::now();
+            launch(pixel, pixels, first, count);
+            device.finish();
+            const double rate = static_cast<double>(pixels) * count / std::max(since(start), 1e-6);
+            // Small launches are dominated by overhead and must not make the next ones smaller still.
+            items_per_second = items_per_second > 0 ? std::max(0.5 * (items_per_second + rate), rate) : rate;
+            pixel += pixels;
+        }
+    }
+
+    void load_film_arrays() {
+        film.sums = device.download<std::int64_t>(sums);
+        film.half_sums = device.download<std::int64_t>(half_sums);
+        film.samples = device.download<std::uint32_t>(samples);
+        film.counters = read_counters();
+    }
+};
+
+Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
+    check(settings);
+    state_ = std::make_unique<State>(device, settings);
+    State& s = *state_;
+
+    const auto build_start = Clock::now();
+    s.packed = pack(scene, settings);
+    s.frame = frame_of(s.packed, settings);
+    s.build_seconds = since(build_start);
+    s.features = features_of(scene, settings, s.packed.instances);
+    s.scene = upload(device, s.packed, settings);
+
+    Film& f = s.film;
+    f.full_width = settings.width, f.full_height = settings.height;
+    f.x = s.frame.crop[0], f.y = s.frame.crop[1], f.width = s.frame.crop[2], f.height = s.frame.crop[3];
+    f.bins_x = settings.bins_x, f.bins_y = settings.bins_y;
+    f.quanta_log2 = s.packed.quanta_log2;
+    f.scene = hash_of(scene);
+    f.settings_text = text_of(settings);
+    f.settings = Hash().add(f.settings_text).hex();
+    f.devices = {device.info().name + ", " + device.info().driver};
+    const std::size_t tiles = std::size_t((f.width + 7) / 8) * ((f.height + 7) / 8);
+    s.items = tiles * tile;
+    s.sums = device.allocate(f.pixels() * f.bins() * FILM_CHANNELS * sizeof(std::int64_t));
+    s.half_sums = device.allocate(f.pixels() * 3 * sizeof(std::int64_t));
+    s.samples = device.allocate(f.pixels() * sizeof(std::uint32_t));
+    s.counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
+    s.scene.bytes += s.sums.bytes() + s.half_sums.bytes() + s.samples.bytes();
+
+    const auto compile_start = Clock::now();
+    const Program program = device.build("shading/path.cl", options_of(s.features));
+    s.trace_paths = program.kernel("trace_paths");
+    s.trace_features = program.kernel("trace_features");
+    // Some drivers generate code at the first launch: one tile, thrown away, keeps that out of render times.
+    s.clear_film();
+    s.launch(0, tile, 0, 1);
+    device.finish();
+    s.clear_film();
+    s.compile_seconds = since(compile_start);
+    PackedScene light;  // what the device has now is not kept twice
+    light.origin = s.packed.origin;
+    light.duplicates = s.packed.duplicates;
+    s.packed = std::move(light);
+}
+
+Renderer::~Renderer() = default;
+
+SampleRange Renderer::render(SampleRange range, const std::function<bool(const Progress&)>& report) {
+    State& s = *state_;
+    const auto start = Clock::now();
+    double next_estimate = 0.25;
+    Progress progress{.samples_wanted = range.end - range.begin};
+    std::uint64_t at = range.begin;
+    while (at < range.end) {
+        // A pass is as many samples as fit a launch; at least one, at most a quarter second's worth.
+        const double fit = s.items_per_second * 4 * launch_seconds / static_cast<double>(s.items);
+        const std::uint64_t count = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(fit), 1,
+                                                              std::min<std::uint64_t>(range.end - at, 256));
+        s.pass(at, static_cast<unsigned>(count));
+        at += count;
+        s.film.ranges.push_back({at - count, at});
+        progress.samples_done = at - range.begin;
+        progress.seconds = since(start);
+        if (progress.seconds >= next_estimate || at == range.end) {
+            s.load_film_arrays();
+            progress.relmse = estimated_relmse(s.film);
+            progress.rays = s.film.counters[COUNTER_RAYS];
+            // Estimating reads the whole film: spend a small share of the time on it.
+            const double cost = since(start) - progress.seconds;
+            next_estimate = since(start) + std::max(1.0, 20 * cost);
+            progress.seconds = since(start);
+        }
+        if (!report(progress)) break;
+    }
+    return {range.begin, at};
+}
+
+Film Renderer::film() {
+    state_->load_film_arrays();
+    return merge(std::span<const Film>(&state_->film, 1));
+}
+
+Renderer::FeaturePlanes Renderer::feature_planes(unsigned samples) {
+    State& s = *state_;
+    const std::size_t pixels = s.film.pixels();
+    Buffer planes[4];
+    for (int i = 0; i < 4; ++i) planes[i] = s.device.allocate(pixels * (i == 3 ? 1 : 3) * sizeof(float));
+    Arguments arguments = s.scene.arguments;
+    for (const Buffer& b : planes) arguments.add(b);
+    const std::size_t chunk =
+        std::max<std::size_t>(tile, std::min(s.items, std::size_t(1) << 20) / samples / tile * tile);
+    for (std::size_t pixel = 0; pixel < s.items; pixel += chunk) {
+        const std::size_t count = std::min(chunk, s.items - pixel);
+        s.device.run(s.trace_features,
+                     Arguments()
+                         .add(arguments)
+                         .add(std::uint32_t(pixel))
+                         .add(std::uint32_t(count))
+                         .add(std::uint32_t(samples)),
+                     count);
+        s.device.finish();
+    }
+    FeaturePlanes out{s.device.download<float>(planes[0]), s.device.download<float>(planes[1]),
+                      s.device.download<float>(planes[2]), s.device.download<float>(planes[3])};
+    for (std::size_t i = 0; i < pixels * 3; ++i)
+        out.position[i] = static_cast<float>(out.position[i] + s.packed.origin[static_cast<int>(i % 3)]);
+    return out;
+}
+
+const Features& Renderer::features() const { return state_->features; }
+double Renderer::build_seconds() const { return state_->build_seconds; }
+double Renderer::compile_seconds() const { return state_->compile_seconds; }
+std::uint64_t Renderer::device_bytes() const { return state_->scene.bytes; }
+
+}  // namespace triad

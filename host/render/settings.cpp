@@ -1,0 +1,43 @@
+#include "render/settings.h"
+
+#include <cstdio>
+#include <initializer_list>
+
+namespace triad {
+
+std::string text_of(const RenderSettings& s) {
+    std::string text = "{";
+    auto add = [&](const char* name, std::initializer_list<double> values) {
+        text += (text.size() > 1 ? ", \"" : "\"") + std::string(name) + "\": ";
+        if (values.size() > 1) text += "[";
+        bool first = true;
+        for (double v : values) {
+            char number[32];
+            std::snprintf(number, sizeof number, "%.17g", v);
+            text += (first ? "" : ", ") + std::string(number);
+            first = false;
+        }
+        if (values.size() > 1) text += "]";
+    };
+    const View& v = s.view;
+    add("size", {double(s.width), double(s.height)});
+    add("bins", {double(s.bins_x), double(s.bins_y)});
+    add("crop", {double(s.crop[0]), double(s.crop[1]), double(s.crop[2]), double(s.crop[3])});
+    add("seed", {double(s.seed)});
+    add("max_depth", {double(s.max_depth)});
+    add("transparent", {double(s.transparent)});
+    add("eye", {v.eye.x, v.eye.y, v.eye.z});
+    add("right", {v.right.x, v.right.y, v.right.z});
+    add("up", {v.up.x, v.up.y, v.up.z});
+    add("forward", {v.forward.x, v.forward.y, v.forward.z});
+    add("orthographic", {double(v.orthographic)});
+    add("extent", {v.extent.x, v.extent.y});
+    add("lens_radius", {v.lens_radius});
+    add("focus_distance", {v.focus_distance});
+    add("environment_rotation", {s.environment_rotation});
+    add("environment_strength", {s.environment_strength});
+    add("flatten_below", {double(s.flatten_below)});
+    return text + "}";
+}
+
+}  // namespace triad
