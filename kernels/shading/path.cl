@@ -16,7 +16,8 @@
 #define ROULETTE_FROM 4u
 /* From here on roulette never lets a path survive for certain, so that none is endless (a ray caught in clear
  * glass). */
-#define ROULETTE_ALWAYS_FROM 32u
+#define ROULETTE_ALWAYS_FROM 64u
+#define ROULETTE_ALWAYS 0.999f
 
 /* What one work-item counts, in registers, for COUNTER_*. */
 typedef struct Tally {
@@ -75,6 +76,9 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
     int specular = 1; /* only delta events so far */
     float body_scale =
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
+#if TRIAD_TRANSMISSION
+    float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
+#endif
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
     Coverage coverage;
@@ -105,10 +109,14 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         const int back = math_dot(wo, s.geometric_normal) < 0.0f;
         const float3 ng = back ? -s.geometric_normal : s.geometric_normal;
 #if TRIAD_TRANSMISSION
-        if (back && (flags & MATERIAL_SOLID)) /* the edge ran inside the body: Beer-Lambert */
-            throughput *= (float3)(math_exp(-material->absorption[0] * hit.t),
-                                   math_exp(-material->absorption[1] * hit.t),
-                                   math_exp(-material->absorption[2] * hit.t));
+        if (back && (flags & MATERIAL_SOLID)) { /* the edge ran inside the body: Beer-Lambert */
+            const float3 way = s.position - from;
+            const float distance = sqrt(math_dot(way, way));
+            throughput *= (float3)(math_exp(-material->absorption[0] * distance),
+                                   math_exp(-material->absorption[1] * distance),
+                                   math_exp(-material->absorption[2] * distance));
+        }
+        from = s.position;
 #endif
 #if TRIAD_UNLIT
         if (flags &
@@ -194,7 +202,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         specular = specular && (sample.event & BSDF_DELTA);
 
         if (edge >= ROULETTE_FROM) {
-            const float most = edge >= ROULETTE_ALWAYS_FROM ? 0.95f : 1.0f;
+            const float most = edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
             const float survive = math_min(math_max3(throughput) / body_scale, most);
             if (!(choice.y < survive)) break;
             throughput *= 1.0f / survive;
