@@ -26,11 +26,11 @@ TRIAD_FUNCTION float2 albedo_ggx(global const float* tables, float root_mu, floa
     return albedo_bilinear(tables, ALBEDO_SIZE, row, column, ty, tx);
 }
 /* A rough dielectric body seen from outside or inside, without the change of radiance by its index:
- * (reflection plus transmission, the same if only total reflection reflected). z = (n - 1) / (n + 1). */
-TRIAD_FUNCTION float2 albedo_glass(global const float* tables, float root_mu, float roughness, float z,
+ * (reflection plus transmission, the same if only total reflection reflected). f0 = ((n - 1) / (n + 1))^2. */
+TRIAD_FUNCTION float2 albedo_glass(global const float* tables, float root_mu, float roughness, float f0,
                                    uint inside) {
     float tz, ty, tx;
-    uint plane = albedo_node(z * (1.0f / ALBEDO_GLASS_MAX), ALBEDO_GLASS_SIZE, &tz);
+    uint plane = albedo_node(sqrt(sqrt(f0) * (1.0f / ALBEDO_GLASS_MAX)), ALBEDO_GLASS_SIZE, &tz);
     uint row = albedo_node(roughness, ALBEDO_GLASS_SIZE, &ty),
          column = albedo_node(root_mu, ALBEDO_GLASS_SIZE, &tx);
     const uint side = ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2u;

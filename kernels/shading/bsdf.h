@@ -24,8 +24,9 @@
 
 /* Below this a lobe is a mirror: float directions cannot resolve it. */
 #define BSDF_SMOOTH_ALPHA 1e-3f
-/* A body whose index differs from 1 by less is no interface. */
-#define BSDF_SAME_INDEX 1e-3f
+/* A body whose index differs from 1 by less is taken as smooth: its roughness would blur what is behind by
+ * less than alpha / 100, and half vectors lose their meaning. */
+#define BSDF_SAME_INDEX 1e-2f
 /* Share of the transmitting part that is sampled even where it looks black from wo. */
 #define BSDF_MIN_TRANSMITTER 0.1f
 
@@ -76,6 +77,8 @@ TRIAD_FUNCTION float3 bsdf_transmitter_fresnel(const Bsdf* b, float c) {
     float r = fresnel_dielectric(c, b->eta);
     if (r >= 1.0f) return (float3)(1.0f);
     float3 f = fma(b->fresnel1, (float3)(r), b->fresnel0);
+    /* Brewster's dip goes below normal incidence */
+    f = (float3)(math_max(f.x, 0.0f), math_max(f.y, 0.0f), math_max(f.z, 0.0f));
     /* both faces of a thin wall and all reflections between them: R = 2F / (1 + F), T = (1 - F) / (1 + F) */
     return b->solid ? f : 2.0f * f / (1.0f + f);
 }
@@ -162,7 +165,7 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
         if (!b.smooth) {
             float3 kept = (float3)(albedo.x);
             if (in->solid) {
-                float2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, sqrt(f0), in->inside);
+                float2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
                 kept =
                     b.fresnel0 * albedo.x + b.fresnel1 * glass.x + (1.0f - b.fresnel0 - b.fresnel1) * glass.y;
             }

@@ -85,7 +85,7 @@ int main() {
         for (int i = 0; i <= n; ++i)
             for (int r = 0; r <= n; ++r)
                 for (int m = 0; m <= n; ++m) {
-                    const double z = double(ALBEDO_GLASS_MAX) * i / n, ior = (1 + z) / (1 - z);
+                    const double z = double(ALBEDO_GLASS_MAX) * i * i / (n * n), ior = (1 + z) / (1 - z);
                     const double root = double(m) / n, roughness = double(r) / n;
                     print(glass(root * root, roughness * roughness, inside ? 1 / ior : ior));
                 }
