@@ -260,6 +260,12 @@ TRIAD_SIZE(Frame, 192);
 #define COUNTER_CUT_ENERGY 4  /* sum of their throughput (luminance), in 1/65536 */
 #define COUNTERS 5
 
+/* Tone maps of kernels/subpixel/tone_map.h */
+#define TONE_MAP_NONE 0u
+#define TONE_MAP_KHRONOS 1u
+#define TONE_MAP_ACES 2u
+#define TONE_MAP_AGX 3u
+
 #ifndef __OPENCL_C_VERSION__
 }  // namespace triad::dev
 #endif
