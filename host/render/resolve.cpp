@@ -39,7 +39,7 @@ std::vector<float> resolve_display(Device& device, const Film& film, const Displ
     const Kernel kernel = device.build("subpixel/resolve.cl").kernel("resolve_bins");
     std::vector<float> display(film.pixels() * 4);
     const std::size_t bins = film.bins();
-    const std::size_t slab = std::max<std::size_t>(1, (std::size_t(1) << 22) / bins);  // 128 MiB of sums
+    const std::size_t slab = std::max<std::size_t>(1, (std::size_t(1) << 18) / bins);  // 8 MiB of sums
     for (std::size_t first = 0; first < film.pixels(); first += slab) {
         const std::size_t count = std::min(slab, film.pixels() - first);
         const Buffer sums = device.upload(std::span(film.sums).subspan(first * bins * 4, count * bins * 4));
