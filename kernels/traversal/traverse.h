@@ -56,7 +56,8 @@ TRIAD_FUNCTION SlabRay slab_ray(const float origin[3], const float direction[3])
     return ray;
 }
 
-/* Eight boxes: entry distances, and a byte of ones for each child that the ray meets within [0, t_max]. */
+/* Eight boxes: entry distances, and the top bit of a byte for each child that the ray meets within [0,
+ * t_max]. */
 TRIAD_FUNCTION ulong slab_intersect(global const BvhNode* node, const SlabRay* ray, float t_max,
                                     float8* entry) {
     global const float* bounds = &node->bounds[0][0];
@@ -76,13 +77,13 @@ TRIAD_FUNCTION ulong slab_intersect(global const BvhNode* node, const SlabRay* r
     tn = tn > 0.0f ? tn : (float8)(0.0f);
     tf = tf < t_max ? tf : (float8)(t_max);
     *entry = tn;
-    return as_ulong(convert_char8(tn <= tf));
+    return as_ulong(convert_char8(tn <= tf)) & 0x8080808080808080ul;
 }
 
 /* Takes the lowest child out of a mask of slab_intersect and returns its number. */
 TRIAD_FUNCTION uint slab_next(ulong* mask) {
     const uint child = (uint)(63 - clz(*mask & (0 - *mask))) >> 3;
-    *mask &= ~(0xfful << (child * 8u));
+    *mask &= *mask - 1;
     return child;
 }
 
@@ -137,11 +138,13 @@ TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const
     return 0;
 }
 
+/* A child and where the ray enters it, which is not negative: packs compare as their entries. */
+TRIAD_FUNCTION ulong traversal_pack(uint child, float entry) { return (ulong)as_uint(entry) << 32 | child; }
+
 /* The walk. `any` is a constant of the call: 1 stops at the first hit and returns 1, 0 leaves the closest in
  * `best`. */
 TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* best, const int any) {
-    uint stack_child[BVH_STACK];
-    float stack_entry[BVH_STACK];
+    ulong stack[BVH_STACK];
     uint size = 0u;
     uint child = scene->root;
     uint instance = 0u;
@@ -172,26 +175,26 @@ TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* b
             ulong mask = slab_intersect(node, &slab, best->t, &entries);
             if (mask != 0ul) {
                 const uint first = slab_next(&mask);
-                child = node->child[first];
-                if (mask == 0ul) continue;
+                if (mask == 0ul) {
+                    child = node->child[first];
+                    continue;
+                }
                 float entry[8];
                 vstore8(entries, 0, entry);
-                float nearest = entry[first];
-                do { /* the nearest child is walked next, the others wait */
+                ulong nearest = traversal_pack(node->child[first], entry[first]);
+                const uint floor_of_node = size;
+                do { /* the nearest child is walked next, the others lie in order on the stack */
                     const uint next = slab_next(&mask);
-                    uint farther_child = node->child[next];
-                    float farther = entry[next];
-                    if (!any && farther < nearest) {
-                        const uint swap_child = child;
-                        const float swap = nearest;
-                        child = farther_child;
-                        nearest = farther;
-                        farther_child = swap_child;
-                        farther = swap;
-                    }
-                    stack_child[size] = farther_child;
-                    stack_entry[size++] = farther;
+                    const ulong other = traversal_pack(node->child[next], entry[next]);
+                    const ulong farther = any ? other : max(nearest, other);
+                    nearest = any ? nearest : min(nearest, other);
+                    uint place = size++;
+                    if (!any)
+                        for (; place > floor_of_node && stack[place - 1u] < farther; --place)
+                            stack[place] = stack[place - 1u];
+                    stack[place] = farther;
                 } while (mask != 0ul);
+                child = (uint)nearest;
                 continue;
             }
         }
@@ -206,8 +209,8 @@ TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* b
             }
 #endif
             if (size == 0u) return 0;
-            child = stack_child[--size];
-        } while (stack_entry[size] > best->t);
+            child = (uint)stack[--size];
+        } while (as_float((uint)(stack[size] >> 32)) > best->t);
     }
 }
 

@@ -71,7 +71,6 @@ TRIAD_FUNCTION int4 triangle_intersect(global const TriangleBlock* block, const 
     most = most > w ? most : w;
     const float4 determinant = u + v + w;
     int4 lanes = ((least >= 0.0f) | (most <= 0.0f)) & (determinant != 0.0f);
-    if (as_uint(convert_char4(lanes)) == 0u) return lanes;
 
     const float4 inverse = 1.0f / determinant;
     const float4 t = fma(u, az, fma(v, bz, w * cz)) * ray->shear_z * inverse;

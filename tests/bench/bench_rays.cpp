@@ -53,6 +53,8 @@ Options parse(int argc, char** argv) {
             options.size = std::max(8u, number() / 8 * 8);
         else if (name == "--rounds")
             options.rounds = std::max(1u, number());
+        else if (name == "--kernels")
+            kernel_source::set_folder(value);
         else if (name == "--clock")
             use_cpu_clock = value == "cpu";
         else if (name == "--json")
@@ -60,7 +62,7 @@ Options parse(int argc, char** argv) {
         else
             throw Error(Exit::usage, "There is no option " + name +
                                          "; there are --scene, --device, --threads, --local, --size, "
-                                         "--rounds, --clock and --json.");
+                                         "--rounds, --clock, --kernels and --json.");
     }
     return options;
 }
