@@ -1,0 +1,205 @@
+// The tree builder by itself: every triangle reachable once, every box around what is below it, depth, order,
+// threads.
+#include "bvh/bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <random>
+#include <set>
+
+#include "base/parallel_for.h"
+#include "scene/shapes.h"
+
+using namespace triad;
+
+namespace {
+
+std::vector<BvhTriangle> triangles_of(const Primitive& shape) {
+    std::vector<BvhTriangle> triangles;
+    for (const uvec3& t : shape.triangles)
+        triangles.push_back({{shape.positions[t.x], shape.positions[t.y], shape.positions[t.z]},
+                             std::uint32_t(triangles.size())});
+    return triangles;
+}
+
+struct Contents {
+    std::multiset<std::uint32_t> primitives, instances;
+    unsigned depth = 0;
+};
+
+/// Walks a tree and checks that every triangle lies in the boxes of all its ancestors.
+void walk(const BvhPool& pool, std::uint32_t node, unsigned depth, Contents& contents, Bounds inside) {
+    contents.depth = std::max(contents.depth, depth);
+    const dev::BvhNode& n = pool.nodes.at(node);
+    for (int i = 0; i < BVH_WIDTH; ++i) {
+        Bounds box;
+        for (int a = 0; a < 3; ++a) {
+            box.lo[a] = std::max(inside.lo[a], double(n.bounds[2 * a][i]));
+            box.hi[a] = std::min(inside.hi[a], double(n.bounds[2 * a + 1][i]));
+        }
+        if (n.child[i] == BVH_EMPTY) {
+            for (int a = 0; a < 3; ++a) ASSERT_GT(n.bounds[2 * a][i], n.bounds[2 * a + 1][i]);
+        } else if (n.child[i] & BVH_LEAF) {
+            const dev::TriangleBlock& block = pool.blocks.at(n.child[i] & BVH_INDEX);
+            std::set<std::uint32_t> lanes;
+            for (int lane = 0; lane < 4; ++lane) {
+                for (int corner = 0; corner < 3; ++corner)
+                    for (int a = 0; a < 3; ++a) {
+                        ASSERT_GE(block.vertex[corner * 3 + a][lane], box.lo[a]);
+                        ASSERT_LE(block.vertex[corner * 3 + a][lane], box.hi[a]);
+                    }
+                lanes.insert(block.primitive[lane]);
+            }
+            contents.primitives.insert(lanes.begin(), lanes.end());
+        } else if (n.child[i] & BVH_INSTANCE) {
+            contents.instances.insert(n.child[i] & BVH_INDEX);
+        } else {
+            walk(pool, n.child[i], depth + 1, contents, box);
+        }
+    }
+}
+
+Contents contents_of(const BvhPool& pool, std::uint32_t root) {
+    Contents contents;
+    Bounds everything;
+    everything.lo = dvec3(-std::numeric_limits<double>::infinity());
+    everything.hi = dvec3(std::numeric_limits<double>::infinity());
+    walk(pool, root, 1, contents, everything);
+    EXPECT_LE(contents.depth, unsigned(BVH_DEPTH));
+    return contents;
+}
+
+Contents contents_of(const std::vector<BvhTriangle>& triangles,
+                     const std::vector<BvhInstance>& instances = {}) {
+    BvhPool pool;
+    const std::uint32_t root = build_bvh(triangles, instances, 1.0f, pool);
+    return contents_of(pool, root);
+}
+
+void expect_each_once(const Contents& contents, std::size_t count) {
+    ASSERT_EQ(contents.primitives.size(), count);
+    EXPECT_EQ(std::set(contents.primitives.begin(), contents.primitives.end()).size(), count);
+}
+
+TEST(Bvh, two_levels_of_the_deepest_trees_fit_the_stack) {
+    static_assert(2 * (BVH_DEPTH * (BVH_WIDTH - 1) + 1) <= BVH_STACK);
+}
+
+TEST(Bvh, holds_every_triangle_once_within_its_boxes) {
+    for (const unsigned cells : {1u, 2u, 3u, 17u, 90u}) {
+        const auto triangles = triangles_of(shapes::terrain(10.0f, 1.0f, cells, 3));
+        expect_each_once(contents_of(triangles), triangles.size());
+    }
+}
+
+TEST(Bvh, of_nothing_is_a_root_without_children) {
+    BvhPool pool;
+    const std::uint32_t root = build_bvh({}, {}, 0.0f, pool);
+    for (const std::uint32_t child : pool.nodes.at(root).child) EXPECT_EQ(child, BVH_EMPTY);
+    EXPECT_TRUE(pool.blocks.empty());
+}
+
+TEST(Bvh, is_the_same_whatever_the_number_of_threads) {
+    const auto triangles = triangles_of(shapes::displaced_sphere(vec3(0.0f), 1.0f, 300, 200, 0.4f, 3.0f, 5));
+    BvhPool one, many;
+    set_host_threads(1);
+    build_bvh(triangles, {}, 2.0f, one);
+    set_host_threads(7);
+    build_bvh(triangles, {}, 2.0f, many);
+    set_host_threads(0);
+    ASSERT_EQ(one.nodes.size(), many.nodes.size());
+    ASSERT_EQ(one.blocks.size(), many.blocks.size());
+    EXPECT_EQ(std::memcmp(one.nodes.data(), many.nodes.data(), one.nodes.size() * sizeof(dev::BvhNode)), 0);
+    EXPECT_EQ(
+        std::memcmp(one.blocks.data(), many.blocks.data(), one.blocks.size() * sizeof(dev::TriangleBlock)),
+        0);
+}
+
+TEST(Bvh, stays_shallow_where_the_heuristic_would_peel_triangles_off_one_by_one) {
+    // Sizes and places in geometric progression: every best split cuts off a handful.
+    std::vector<BvhTriangle> triangles;
+    for (int i = 0; i < 4000; ++i) {
+        const float x = std::pow(1.03f, float(i % 2000) - 1000), y = i < 2000 ? x : -x;
+        triangles.push_back({{{x, y, 0}, {x * 1.01f, y, x}, {x, y * 1.01f, -x}}, std::uint32_t(i)});
+    }
+    expect_each_once(contents_of(triangles), triangles.size());
+}
+
+TEST(Bvh, stays_shallow_where_all_centres_are_one) {
+    std::vector<BvhTriangle> triangles;
+    for (int i = 1; i <= 5000; ++i) {
+        const float r = float(i);
+        triangles.push_back({{{-r, -r, -r}, {r, r, r}, {-r, r, 0.25f * r}}, std::uint32_t(i - 1)});
+    }
+    expect_each_once(contents_of(triangles), triangles.size());
+}
+
+TEST(Bvh, keeps_the_lowest_primitive_of_exact_duplicates_however_many_wound_or_rotated) {
+    const auto once = triangles_of(shapes::lat_long_sphere(vec3(1.0f, 0.0f, -2.0f), 1.0f, 20, 10));
+    std::vector<BvhTriangle> triangles;
+    std::mt19937 random(1);
+    for (std::uint32_t copy = 0; copy < 40; ++copy)
+        for (const BvhTriangle& t : once) {
+            const unsigned turn = random() % 3;
+            BvhTriangle other{{t.corner[turn], t.corner[(turn + 1) % 3], t.corner[(turn + 2) % 3]},
+                              t.primitive + copy * std::uint32_t(once.size())};
+            if (random() % 2) std::swap(other.corner[0], other.corner[1]);
+            triangles.push_back(other);
+        }
+    std::shuffle(triangles.begin(), triangles.end(), random);
+    const Contents contents = contents_of(triangles);
+    expect_each_once(contents, once.size());
+    EXPECT_EQ(*contents.primitives.rbegin(), once.size() - 1);
+}
+
+TEST(Bvh, drops_triangles_without_area) {
+    const std::vector<BvhTriangle> triangles{{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, 0},
+                                             {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, 1},
+                                             {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, 2}};
+    expect_each_once(contents_of(triangles), 1);
+}
+
+TEST(Bvh, mixes_triangles_and_instances_and_keeps_them_apart_in_leaves) {
+    const auto triangles = triangles_of(shapes::terrain(10.0f, 1.0f, 12, 3));
+    std::vector<BvhInstance> instances;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        Bounds box;
+        box.add(dvec3(i % 20, 0, i / 20));
+        box.add(dvec3(i % 20 + 1, 1, i / 20 + 1));
+        instances.push_back({box, i + 1});
+    }
+    const Contents contents = contents_of(triangles, instances);
+    expect_each_once(contents, triangles.size());
+    EXPECT_EQ(contents.instances.size(), 300u);
+    EXPECT_EQ(std::set(contents.instances.begin(), contents.instances.end()).size(), 300u);
+}
+
+TEST(Bvh, asks_for_coverage_only_where_a_triangle_is_not_opaque) {
+    auto triangles = triangles_of(shapes::quad({0, 0, 0}, {10, 0, 0}, {0, 10, 0}, 20, 20));
+    for (BvhTriangle& t : triangles) t.opaque = t.primitive != 17;
+    BvhPool pool;
+    build_bvh(triangles, {}, 1.0f, pool);
+    std::size_t asking = 0;
+    for (const dev::BvhNode& node : pool.nodes)
+        for (const std::uint32_t child : node.child)
+            if (child != BVH_EMPTY && (child & BVH_LEAF) && (child & BVH_ALPHA)) {
+                ++asking;
+                const auto& ids = pool.blocks[child & BVH_INDEX].primitive;
+                EXPECT_TRUE(std::find(std::begin(ids), std::end(ids), 17u) != std::end(ids));
+            }
+    EXPECT_EQ(asking, 1u);
+}
+
+TEST(Bvh, appends_to_the_pool_and_leaves_what_is_there) {
+    const auto first = triangles_of(shapes::box(vec3(0.0f), vec3(1.0f)));
+    const auto second = triangles_of(shapes::terrain(10.0f, 1.0f, 9, 3));
+    BvhPool pool;
+    const std::uint32_t a = build_bvh(first, {}, 1.0f, pool), b = build_bvh(second, {}, 1.0f, pool);
+    expect_each_once(contents_of(pool, a), first.size());
+    expect_each_once(contents_of(pool, b), second.size());
+}
+
+}  // namespace
