@@ -189,8 +189,9 @@ class Device {
     Program build(const std::string& path, const Options& options = {});
     Program build_source(const std::string& name, const std::string& source, const Options& options = {});
 
-    /// Enqueues `items` work-items, rounded up to a multiple of `local`: kernels guard against the excess. 0 stands for
-    /// preferred_local(), or less where the kernel allows less; another that it does not allow is a DeviceError.
+    /// Enqueues `items` work-items, rounded up to a multiple of `local`: kernels guard against the excess. 0
+    /// stands for preferred_local(), or less where the kernel allows less; another that it does not allow is
+    /// a DeviceError.
     void run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local = 0);
     void finish();
 
