@@ -104,7 +104,8 @@ struct Renderer::State {
     }
 };
 
-Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings) {
+Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
+                   const std::optional<Features>& features) {
     check(settings);
     state_ = std::make_unique<State>(device, settings);
     State& s = *state_;
@@ -113,7 +114,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.packed = pack(scene, settings);
     s.frame = frame_of(s.packed, settings);
     s.build_seconds = since(build_start);
-    s.features = features_of(scene, settings, s.packed.instances);
+    s.features = features ? *features : features_of(scene, settings, s.packed.instances);
     s.scene = upload(device, s.packed, settings);
 
     Film& f = s.film;

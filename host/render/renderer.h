@@ -2,6 +2,7 @@
 /// One picture of one scene on one device: packs, specialises, launches, and hands out the film.
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "device/device.h"
 #include "render/features.h"
@@ -24,7 +25,9 @@ class Renderer {
     /// Builds the trees, uploads the scene and compiles the kernels (a first, discarded launch compiles on
     /// drivers that do so at launch). Throws Error(scene) "nothing to render ..." when the scene has no
     /// triangles.
-    Renderer(Device& device, const Scene& scene, const RenderSettings& settings);
+    /// `features` replaces what features_of() finds: tests prove that leaving things out changes no bit.
+    Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
+             const std::optional<Features>& features = {});
     ~Renderer();
 
     /// Adds these samples to the film, pass by pass; report is called after every pass and returns false to

@@ -69,7 +69,7 @@ TEST(IntegratingSphere, emission_and_albedo_sum_the_geometric_series) {
         Builder b;
         b.add(faceted_sphere(48, true), wall);
         expect_closed_form("rho " + std::to_string(rho),
-                           measure(b.scene, {.view = look_at({0, 0, 0.3}, {0, 0, -1}, 1.0, 1.0), .spp = 256}),
+                           measure(b.scene, {.view = look_at({0, 0, 0.3}, {0, 0, -1}, 1.0, 1.0), .spp = rho > 0.95 ? 32u : 128u}),
                            1.0 / (1.0 - rho), 1e-5);
     }
 }
