@@ -136,6 +136,16 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
     b.solid = in->solid;
     if (b.transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b.smooth = 1u;
 #endif
+    uint lambert = in->metallic == 0.0f && in->specular == 0.0f;
+#if BSDF_TRANSMISSION
+    lambert = lambert && !b.transmits;
+#endif
+    if (lambert) { /* what follows would come to the same bits */
+        b.diffuse = in->base_colour * opaque;
+        b.specular0 = b.specular1 = (float3)(0.0f);
+        b.p_specular = 0.0f;
+        return b;
+    }
     /* directional albedo of GGX reflection, Fresnel factor 1 and (1 - cos)^5 */
     float2 albedo = (float2)(1.0f, fresnel_schlick_weight(wo.z));
     float root_mu = sqrt(wo.z);
