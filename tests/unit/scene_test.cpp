@@ -1,0 +1,94 @@
+// The scene as data: what validate() must find, what hash_of() must tell apart.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace triad {
+namespace {
+
+Scene small_scene() {
+    Scene scene;
+    scene.images.push_back({"white", 1, 1, 8, {255, 255, 255, 255}});
+    scene.textures.push_back({});
+    scene.materials.push_back({});
+    scene.materials[0].base_colour_texture = TextureUse{};
+    Primitive p;
+    p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    p.triangles = {{0, 1, 2}};
+    scene.meshes.push_back({"mesh", {p}});
+    scene.instances.push_back({"instance", 0, dmat4(1.0)});
+    scene.lights.push_back({});
+    scene.cameras.push_back({});
+    return scene;
+}
+
+const std::vector<std::function<void(Scene&)>> faults{
+    [](Scene& s) { s.images[0].texels.pop_back(); },
+    [](Scene& s) { s.images[0].bits = 32; },
+    [](Scene& s) { s.textures[0].image = 1; },
+    [](Scene& s) { s.materials[0].base_colour.x = 2; },
+    [](Scene& s) { s.materials[0].roughness = NAN; },
+    [](Scene& s) { s.materials[0].emission.y = -1; },
+    [](Scene& s) { s.materials[0].ior = 0.5f; },
+    [](Scene& s) { s.materials[0].attenuation_distance = 0; },
+    [](Scene& s) { s.materials[0].base_colour_texture->texture = 9; },
+    [](Scene& s) { s.materials[0].base_colour_texture->uv_set = 2; },
+    [](Scene& s) { s.meshes[0].primitives[0].material = 1; },
+    [](Scene& s) { s.meshes[0].primitives[0].triangles[0].z = 3; },
+    [](Scene& s) { s.meshes[0].primitives[0].normals.assign(2, vec3(0, 0, 1)); },
+    [](Scene& s) { s.meshes[0].primitives[0].normals.assign(3, vec3(0, 0, 2)); },
+    [](Scene& s) { s.meshes[0].primitives[0].tangents.assign(3, vec4(1, 0, 0, 0)); },
+    [](Scene& s) { s.instances[0].mesh = 1; },
+    [](Scene& s) { s.instances[0].to_world = dmat4(0.0); },
+    [](Scene& s) { s.instances[0].to_world[3].x = INFINITY; },
+    [](Scene& s) { s.instances[0].to_world[0].x = 1e35; },
+    [](Scene& s) { s.lights[0].direction = dvec3(0.0); },
+    [](Scene& s) { s.lights[0].colour.x = NAN; },
+    [](Scene& s) { s.lights[0].inner_cone = 1.0f; },
+    [](Scene& s) { s.cameras[0].yfov = 0; },
+    [](Scene& s) { s.cameras[0].magnification.y = 0; },
+    [](Scene& s) {
+        s.environment = EnvironmentMap{2, 1, {1, 1, 1}};
+    },
+    [](Scene& s) { s.sky.z = -1; },
+};
+
+TEST(Scene, every_broken_invariant_is_found) {
+    Scene good = small_scene();
+    EXPECT_EQ(validate(good), 0u);
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+        Scene scene = small_scene();
+        faults[i](scene);
+        EXPECT_THROW(validate(scene), Error) << "fault " << i;
+    }
+}
+
+TEST(Scene, what_cannot_be_drawn_is_dropped_down_to_the_instance) {
+    Scene scene = small_scene();
+    scene.meshes[0].primitives[0].positions[1].x = NAN;
+    EXPECT_EQ(validate(scene), 1u);
+    EXPECT_TRUE(scene.meshes[0].primitives.empty());
+    EXPECT_TRUE(scene.instances.empty());
+    EXPECT_TRUE(bounds_of(scene).empty());
+}
+
+TEST(Scene, hash_tells_content_apart_and_names_do_not_matter) {
+    const std::string hash = hash_of(small_scene());
+    EXPECT_EQ(hash, hash_of(small_scene()));
+    EXPECT_EQ(hash.size(), 32u);
+    Scene renamed = small_scene();
+    renamed.materials[0].name = renamed.meshes[0].name = renamed.instances[0].name = "other";
+    EXPECT_EQ(hash_of(renamed), hash);
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+        Scene scene = small_scene();
+        faults[i](scene);
+        EXPECT_NE(hash_of(scene), hash) << "change " << i;
+    }
+}
+
+}  // namespace
+}  // namespace triad
