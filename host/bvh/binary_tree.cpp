@@ -11,7 +11,7 @@ namespace triad::bvh {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
-constexpr int bin_count = 32;
+constexpr int bin_count = 16;
 constexpr std::size_t parallel_size = 1u << 15;  ///< ranges above it are folded on all cores
 constexpr std::size_t task_size = 1u << 12;      ///< ranges below it become one task
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -159,7 +159,8 @@ class Builder {
 
     std::span<const BvhTriangle> triangles_;
     std::vector<Reference>& references_;
-    const std::uint32_t unit_;  ///< references that one leaf holds: 1 where there are instances (they come last)
+    const std::uint32_t
+        unit_;  ///< references that one leaf holds: 1 where there are instances (they come last)
 };
 
 bool Builder::is_leaf(Range range) const {

@@ -7,6 +7,7 @@
 
 #include "base/parallel_for.h"
 #include "bvh/binary_tree.h"
+#include "bvh/collapse.h"
 
 namespace triad {
 namespace {
@@ -41,114 +42,6 @@ Box box_of(const Bounds& bounds) {
         box.hi[a] = std::nextafter(float(bounds.hi[a]), infinity);
     }
     return box;
-}
-
-/// Which descendants of a binary node become the children of a wide node.
-class Collapse {
-  public:
-    using Children = std::array<std::uint32_t, BVH_WIDTH>;
-    virtual ~Collapse() = default;
-    virtual int children(std::uint32_t node, Children& children) const = 0;
-};
-
-/// The cheapest collapse by the surface-area heuristic: Ylitie, Karras, Laine, "Efficient incoherent ray
-/// traversal on GPUs through compressed wide BVHs" (2017), equations 3 to 7. The leaves are fixed here, so
-/// that the areas of the wide nodes are all that counts.
-class CheapestCollapse : public Collapse {
-  public:
-    explicit CheapestCollapse(const std::vector<BinaryNode>& nodes) : nodes_(nodes), plans_(nodes.size()) {
-        for (std::size_t n = nodes.size(); n-- > 0;) plan(n);
-    }
-    int children(std::uint32_t node, Children& children) const override {
-        int count = 0;
-        distribute(node, BVH_WIDTH, children, count);
-        return count;
-    }
-
-  private:
-    /// cost[i - 1]: the areas of the wide nodes below when the node may take i slots of its parent (1 to 7);
-    /// left[i - 1]: how many of i slots (2 to 8) its left child is given, 0: it takes fewer slots.
-    struct Plan {
-        float cost[BVH_WIDTH - 1];
-        std::uint8_t left[BVH_WIDTH];
-    };
-    void plan(std::size_t n) {
-        Plan& p = plans_[n];
-        std::fill(std::begin(p.left), std::end(p.left), std::uint8_t(0));
-        if (nodes_[n].count) {
-            std::fill(std::begin(p.cost), std::end(p.cost), 0.0f);
-            return;
-        }
-        const Plan &l = plans_[n + 1], &r = plans_[nodes_[n].right_or_first];
-        const auto best = [&](int slots) {
-            float cost = infinity;
-            for (int k = 1; k < slots; ++k)
-                if (const float c = l.cost[k - 1] + r.cost[slots - k - 1]; c < cost) {
-                    cost = c;
-                    p.left[slots - 1] = std::uint8_t(k);
-                }
-            return cost;
-        };
-        p.cost[0] = nodes_[n].box.half_area() + best(BVH_WIDTH);
-        for (int slots = 2; slots < BVH_WIDTH; ++slots) {
-            p.cost[slots - 1] = best(slots);
-            if (p.cost[slots - 1] < p.cost[slots - 2]) continue;
-            p.cost[slots - 1] = p.cost[slots - 2];
-            p.left[slots - 1] = 0;
-        }
-    }
-    void distribute(std::uint32_t node, int slots, Children& children, int& count) const {
-        const Plan& p = plans_[node];
-        while (slots > 1 && slots < BVH_WIDTH && p.left[slots - 1] == 0) --slots;
-        if (slots == 1 || nodes_[node].count) {
-            children[std::size_t(count++)] = node;
-            return;
-        }
-        const int left = p.left[slots - 1];
-        distribute(node + 1, left, children, count);
-        distribute(nodes_[node].right_or_first, slots - left, children, count);
-    }
-
-    const std::vector<BinaryNode>& nodes_;
-    std::vector<Plan> plans_;
-};
-
-/// Opens the highest child until there are eight: seven openings take three whole levels away, so that a
-/// binary tree of 3 n levels becomes a wide one of n.
-class LowestCollapse : public Collapse {
-  public:
-    explicit LowestCollapse(const std::vector<BinaryNode>& nodes) : nodes_(nodes), heights_(nodes.size(), 0) {
-        for (std::size_t n = nodes.size(); n-- > 0;)
-            if (!nodes[n].count)
-                heights_[n] = std::uint8_t(1 + std::max(heights_[n + 1], heights_[nodes[n].right_or_first]));
-    }
-    int children(std::uint32_t node, Children& children) const override {
-        int count = 1;
-        children[0] = node;
-        while (count < BVH_WIDTH) {
-            const auto highest = std::max_element(children.begin(), children.begin() + count,
-                                                  [&](auto a, auto b) { return heights_[a] < heights_[b]; });
-            if (heights_[*highest] == 0) break;
-            children[std::size_t(count++)] = nodes_[*highest].right_or_first;
-            *highest += 1;
-        }
-        return count;
-    }
-
-  private:
-    const std::vector<BinaryNode>& nodes_;
-    std::vector<std::uint8_t> heights_;
-};
-
-/// Levels of wide nodes below and with `node`.
-unsigned wide_depth(const std::vector<BinaryNode>& nodes, const Collapse& collapse, std::uint32_t node) {
-    if (nodes[node].count) return 0;
-    Collapse::Children children;
-    const int count = collapse.children(node, children);
-    unsigned depth = 0;
-    for (int i = 0; i < count; ++i)
-        depth = std::max(depth, wide_depth(nodes, collapse, children[std::size_t(i)]));
-    return depth + 1;
 }
 
 /// Writes the wide tree, depth first, so that what is walked together lies together.

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/parallel_for.h"
+#include "bvh/collapse.h"
 #include "scene/shapes.h"
 
 using namespace triad;
@@ -153,6 +154,53 @@ TEST(Bvh, keeps_the_lowest_primitive_of_exact_duplicates_however_many_wound_or_r
     const Contents contents = contents_of(triangles);
     expect_each_once(contents, once.size());
     EXPECT_EQ(*contents.primitives.rbegin(), once.size() - 1);
+}
+
+/// A comb: a spine of `height` levels with a leaf at each, and at its end a full tree that keeps to the
+/// height too.
+std::uint32_t add_comb(std::vector<bvh::BinaryNode>& nodes, unsigned height, unsigned spine) {
+    const auto node = std::uint32_t(nodes.size());
+    nodes.push_back({{{0, 0, 0}, {1, 1, float(height)}}, 0, height == 0 ? 1u : 0u});
+    if (height == 0) return node;
+    add_comb(nodes, height - 1, spine > 0 ? spine - 1 : 0);
+    const std::uint32_t right = add_comb(nodes, spine > 0 ? 0 : height - 1, 0);
+    nodes[node].right_or_first = right;
+    return node;
+}
+
+TEST(Bvh, the_lowest_collapse_takes_three_levels_at_a_time) {
+    for (const unsigned height : {1u, 3u, 4u, 14u, 27u})
+        for (const unsigned spine : {0u, 5u, 16u, 27u}) {
+            if (height > spine + 12) continue;  // a full tree of more levels is too large
+            std::vector<bvh::BinaryNode> nodes;
+            add_comb(nodes, height, spine);
+            EXPECT_LE(bvh::wide_depth(nodes, bvh::LowestCollapse(nodes), 0), (height + 2) / 3)
+                << height << " " << spine;
+        }
+}
+
+/// Half areas of all wide nodes below and with `node`.
+double wide_cost(const std::vector<bvh::BinaryNode>& nodes, const bvh::Collapse& collapse,
+                 std::uint32_t node) {
+    if (nodes[node].count) return 0;
+    bvh::Collapse::Children children;
+    const int count = collapse.children(node, children);
+    double cost = nodes[node].box.half_area();
+    for (int i = 0; i < count; ++i) cost += wide_cost(nodes, collapse, children[std::size_t(i)]);
+    return cost;
+}
+
+TEST(Bvh, the_cheapest_collapse_is_cheaper_than_another) {
+    const auto triangles = triangles_of(shapes::displaced_sphere(vec3(0.0f), 1.0f, 40, 30, 0.4f, 3.0f, 5));
+    std::vector<bvh::Reference> references;
+    for (const BvhTriangle& t : triangles) {
+        bvh::Box box;
+        for (const vec3& c : t.corner) box.add({{c.x, c.y, c.z}, {c.x, c.y, c.z}});
+        references.push_back({box, t.primitive});
+    }
+    const auto nodes = bvh::build_binary_tree(triangles, references, 48).nodes;
+    EXPECT_LT(wide_cost(nodes, bvh::CheapestCollapse(nodes), 0),
+              wide_cost(nodes, bvh::LowestCollapse(nodes), 0));
 }
 
 TEST(Bvh, drops_triangles_without_area) {
