@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/colour.h"
 #include "base/log.h"
 
 namespace triad {
@@ -76,7 +77,7 @@ vec3 parse_colour(const std::string& option, const std::string& value) {
     vec3 linear;
     for (int c = 0; c < 3; ++c) {
         const double v = (rgb >> (16 - 8 * c) & 255) / 255.0;
-        linear[c] = static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+        linear[c] = static_cast<float>(srgb_decode(v));
     }
     return linear;
 }

@@ -43,6 +43,9 @@ int run(int argc, char** argv) {
         "comparison failed,\n"
         "75 interrupted and saved. A first picture: triad render; your own: triad render SCENE.glb -o "
         "OUT.png");
+    add_merge(app, exit);
+    add_resolve(app, exit);
+    add_compare(app, exit);
     add_devices(app, exit);
     for (CLI::App* command : app.get_subcommands(nullptr)) {
         add_common(*command);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel_for.h"
@@ -59,6 +60,14 @@ std::uint64_t first_half_below(std::uint64_t n, std::uint64_t bins) {
 }
 
 /// Of one channel of one pixel: its mean, and an unbiased estimate of that mean's variance.
+/// How many samples of a pixel fell into each half.
+std::pair<std::uint64_t, std::uint64_t> half_counts(const Film& film) {
+    std::uint64_t first = 0;
+    for (const SampleRange& range : film.ranges)
+        first += first_half_below(range.end, film.bins()) - first_half_below(range.begin, film.bins());
+    return {first, film.sample_count() - first};
+}
+
 struct Estimate {
     float mean, variance;
 };
@@ -185,11 +194,17 @@ std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel) {
     return mean;
 }
 
+std::vector<float> mean_variance(const Film& film) {
+    const auto [first, second] = half_counts(film);
+    if (first == 0 || second == 0) return {};
+    const std::vector<Estimate> estimates = estimate_pixels(film, double(first), double(second));
+    std::vector<float> variance(estimates.size());
+    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = estimates[i].variance;
+    return variance;
+}
+
 double estimated_relmse(const Film& film) {
-    std::uint64_t first = 0;
-    for (const SampleRange& range : film.ranges)
-        first += first_half_below(range.end, film.bins()) - first_half_below(range.begin, film.bins());
-    const std::uint64_t count = film.sample_count(), second = count - first;
+    const auto [first, second] = half_counts(film);
     if (first == 0 || second == 0 || film.pixels() == 0) return -1.0;
     const std::vector<Estimate> estimates = estimate_pixels(film, double(first), double(second));
     std::vector<double> row_sums(film.height);

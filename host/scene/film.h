@@ -45,6 +45,10 @@ std::vector<SampleRange> holes(const Film& film, std::uint64_t end);
 /// Mean radiance and alpha of pixel p, averaged over its bins with equal weight per bin.
 std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel);
 
+/// Variance of the mean of every pixel, [pixel][R, G, B], estimated without bias from its two halves; empty: not known
+/// yet (a half without samples).
+std::vector<float> mean_variance(const Film& film);
+
 /// Estimated relMSE of the picture: mean over pixels and channels of var / (r^2 + 0.01), where var is the variance of the
 /// pixel's mean, from its two independently scrambled halves, and r^2 is estimated so that noise in it does not bias the
 /// result (docs/film.md). Negative: not known yet (a half without samples). Costs tens of nanoseconds per pixel.

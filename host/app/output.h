@@ -1,0 +1,39 @@
+#pragma once
+/// Pictures out: from a film to files, by their extension.
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/io.h"
+#include "panel/tone_map.h"
+#include "scene/film.h"
+
+namespace triad {
+
+/// How a film becomes pictures for looking at; EXR and HDR files stay scene-linear.
+struct OutputStyle {
+    double exposure = 0;  ///< EV: radiance is multiplied by 2^exposure before the tone map
+    std::string tone_map = "khronos";
+    std::optional<vec3> background;  ///< linear; put behind everything that is transparent
+    unsigned bits = 8;               ///< of PNG
+    bool half = false;               ///< of EXR
+};
+
+/// Declares --exposure, --tonemap, --bits and --half.
+void declare_style(CLI::App& command, OutputStyle& style);
+
+bool is_exr(const std::string& path);
+/// Throws Error(usage) when `path` ("-" is standard output, as PNG) has no extension of a picture.
+void check_format(const std::string& path);
+/// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.
+void check_writable(const std::string& path);
+
+/// The scene-linear picture of a film: R, G, B, and A (RGB associated) when `alpha`.
+Picture linear_picture(const Film& film, bool alpha);
+
+/// Writes a linear picture to each path in the form that its extension asks for. `alpha`: keep it where the
+/// format can, when the style has no background colour.
+void write_outputs(const std::vector<std::string>& paths, const Picture& linear, const OutputStyle& style);
+
+}  // namespace triad
