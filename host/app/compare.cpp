@@ -1,7 +1,11 @@
 // triad compare: how far two pictures are apart, and an exit code for scripts.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "app/command_line.h"
 #include "app/report.h"
@@ -19,44 +23,49 @@ struct CompareOptions {
 
 struct Metric {
     const char* name;
-    double ImageDifference::*value;
+    double (*of)(std::span<const float>, std::span<const float>);
     std::optional<double> CompareOptions::*limit;
     bool more_is_better;
 };
-constexpr Metric metrics[] = {{"rmse", &ImageDifference::rmse, &CompareOptions::max_rmse, false},
-                              {"relmse", &ImageDifference::relmse, &CompareOptions::max_relmse, false},
-                              {"mae", &ImageDifference::mae, &CompareOptions::max_mae, false},
-                              {"psnr", &ImageDifference::psnr, &CompareOptions::min_psnr, true}};
+constexpr Metric metrics[] = {
+    {"rmse", rmse, &CompareOptions::max_rmse, false},
+    {"relmse", relmse, &CompareOptions::max_relmse, false},
+    {"mae", mean_absolute_error, &CompareOptions::max_mae, false},
+    {"psnr", [](std::span<const float> a, std::span<const float> b) { return psnr(a, b); },
+     &CompareOptions::min_psnr, true}};
 
-/// R, G and B (and A when both have it), or every channel that both have when there is no R.
-ImageDifference difference_of(const CompareOptions& o) {
+/// R, G and B (and A when both have it), or every channel that both have when there is no R; one after the
+/// other.
+std::array<std::vector<float>, 2> values_of(const CompareOptions& o) {
     const Picture a = read_picture(o.picture), b = read_picture(o.reference);
     auto size = [](const Picture& p) { return std::to_string(p.width) + "x" + std::to_string(p.height); };
     if (a.width != b.width || a.height != b.height)
         throw Error(Exit::comparison, "The pictures differ in size: " + o.picture + " is " + size(a) + ", " +
                                           o.reference + " is " + size(b) + ".");
-    DifferenceSum sum;
-    bool any = false;
+    std::array<std::vector<float>, 2> values;
     for (const Channel& channel : a.channels) {
         const bool beauty =
             channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A";
         const Channel* other = b.find(channel.name);
         if (!other || (a.find("R") && !beauty)) continue;
-        sum.add(channel.values, other->values);
-        any = true;
+        values[0].insert(values[0].end(), channel.values.begin(), channel.values.end());
+        values[1].insert(values[1].end(), other->values.begin(), other->values.end());
     }
-    if (!any)
+    if (values[0].empty())
         throw Error(Exit::comparison,
                     "The pictures " + o.picture + " and " + o.reference + " have no channel in common.");
-    return sum.result();
+    return values;
 }
 
 Exit run(const CompareOptions& o) {
-    const ImageDifference difference = difference_of(o);
+    const auto [picture, reference] = values_of(o);
+    std::size_t not_finite = 0;
+    for (std::size_t i = 0; i < picture.size(); ++i)
+        not_finite += !std::isfinite(picture[i]) || !std::isfinite(reference[i]);
     Json row = {{"picture", o.picture}, {"reference", o.reference}};
     std::string failures;
     for (const Metric& metric : metrics) {
-        const double value = difference.*metric.value;
+        const double value = metric.of(picture, reference);
         if (o.metrics.empty() ||
             std::find(o.metrics.begin(), o.metrics.end(), metric.name) != o.metrics.end()) {
             if (o.json != "-") std::printf("%-7s %.6g\n", metric.name, value);
@@ -71,9 +80,8 @@ Exit run(const CompareOptions& o) {
             failures += text;
         }
     }
-    if (difference.not_finite)
-        std::fprintf(stderr, "triad: %zu values are not finite\n", difference.not_finite);
-    row["not_finite"] = difference.not_finite;
+    if (not_finite) std::fprintf(stderr, "triad: %zu values are not finite\n", not_finite);
+    row["not_finite"] = not_finite;
     row["passed"] = failures.empty();
     if (!o.json.empty()) write_report(o.json, "compare", nullptr, Json::array({row}));
     if (!failures.empty())

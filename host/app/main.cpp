@@ -43,6 +43,8 @@ int run(int argc, char** argv) {
         "comparison failed,\n"
         "75 interrupted and saved. A first picture: triad render; your own: triad render SCENE.glb -o "
         "OUT.png");
+    add_render(app, exit);
+    add_info(app, exit);
     add_merge(app, exit);
     add_resolve(app, exit);
     add_compare(app, exit);

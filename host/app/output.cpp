@@ -1,15 +1,16 @@
 #include "app/output.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <map>
 
-#include "base/colour.h"
+#include "app/metadata.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
-#include "base/parallel_for.h"
+#include "render/resolve.h"
 
 namespace fs = std::filesystem;
 
@@ -26,66 +27,31 @@ std::string extension_of(const std::string& path) {
 
 bool is_linear_format(const std::string& extension) { return extension == ".exr" || extension == ".hdr"; }
 
-/// The channels a person sees. `alpha` is null when the picture is opaque.
-struct Colours {
-    const std::vector<float>*rgb[3], *alpha;
-
-    explicit Colours(const Picture& picture) {
-        const char* const names[] = {"R", "G", "B"};
-        for (int c = 0; c < 3; ++c) {
-            const Channel* channel = picture.find(names[c]);
-            if (!channel)
-                throw Error(Exit::scene, "The picture has no channel " + std::string(names[c]) + ".");
-            rgb[c] = &channel->values;
-        }
-        const Channel* a = picture.find("A");
-        alpha = a ? &a->values : nullptr;
-    }
-    vec3 colour(std::size_t i) const { return {(*rgb[0])[i], (*rgb[1])[i], (*rgb[2])[i]}; }
-};
-
-/// Exposure, tone map, background, sRGB curve, rounding.
-EncodedPicture encoded(const Picture& linear, const OutputStyle& style) {
-    const Colours in(linear);
-    const ToneMap map = *tone_map_named(style.tone_map);
-    const auto gain = static_cast<float>(std::exp2(style.exposure));
-    const bool keep_alpha = in.alpha && !style.background;
-    EncodedPicture out{linear.width, linear.height, keep_alpha ? 4u : 3u, style.bits, {}, linear.metadata};
-    const std::size_t pixels = std::size_t(out.width) * out.height;
-    out.bytes.resize(pixels * out.channels * out.bits / 8);
-    auto put = [&](std::size_t i, double value) {
-        if (out.bits == 8) {
-            out.bytes[i] = static_cast<std::uint8_t>(std::lround(value * 255));
-        } else {
-            const auto v = static_cast<std::uint16_t>(std::lround(value * 65535));
-            std::copy_n(reinterpret_cast<const std::uint8_t*>(&v), 2, &out.bytes[2 * i]);
-        }
-    };
-    parallel_for(pixels, 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const float alpha = in.alpha ? std::clamp((*in.alpha)[i], 0.0f, 1.0f) : 1.0f;
-            // The curve sees the colour as if it covered the pixel: edges keep the colour of their object.
-            vec3 c = alpha > 0 ? tone_mapped(map, in.colour(i) * (gain / alpha)) : vec3(0.0f);
-            if (style.background) c = glm::mix(*style.background, c, alpha);
-            for (unsigned k = 0; k < 3; ++k) put(i * out.channels + k, srgb_encode(c[k]));
-            if (keep_alpha) put(i * out.channels + 3, alpha);
-        }
-    });
-    return out;
+/// Exposure, tone map, background, sRGB curve.
+EncodedPicture encoded(Device& device, const Film& film, const OutputStyle& style) {
+    static const std::map<std::string, ToneMap> maps = {{"none", ToneMap::none},
+                                                        {"aces", ToneMap::aces},
+                                                        {"agx", ToneMap::agx},
+                                                        {"khronos", ToneMap::khronos}};
+    std::vector<float> rgba =
+        resolve_display(device, film, {static_cast<float>(style.exposure), maps.at(style.tone_map)});
+    if (style.background) put_on_background(rgba, *style.background);
+    const unsigned channels = has_alpha(film) && !style.background ? 4 : 3;
+    return {film.width, film.height, channels, style.bits, encode_srgb(rgba, channels, style.bits), {}};
 }
 
-/// The picture over the background colour, without alpha; the same picture when there is nothing to do.
-Picture composited(Picture linear, const OutputStyle& style) {
-    if (!style.background || !linear.find("A")) return linear;
-    const std::vector<float> alpha = linear.find("A")->values;
-    std::erase_if(linear.channels, [](const Channel& channel) { return channel.name == "A"; });
-    const char* const names[] = {"R", "G", "B"};
-    for (Channel& channel : linear.channels)
-        for (int c = 0; c < 3; ++c)
-            if (channel.name == names[c])
-                for (std::size_t i = 0; i < alpha.size(); ++i)
-                    channel.values[i] += (1 - alpha[i]) * (*style.background)[c];
-    return linear;
+/// R, G, B and, where it means something, A (RGB associated).
+Picture linear(const Film& film, const OutputStyle& style) {
+    std::vector<float> rgba = resolve_linear(film);
+    if (style.background) put_on_background(rgba, *style.background);
+    Picture picture{film.width, film.height, film.x, film.y, film.full_width, film.full_height, {}, {}};
+    const char* const names[] = {"R", "G", "B", "A"};
+    for (int c = 0; c < (has_alpha(film) && !style.background ? 4 : 3); ++c) {
+        Channel channel{names[c], std::vector<float>(film.pixels())};
+        for (std::size_t i = 0; i < film.pixels(); ++i) channel.values[i] = rgba[4 * i + c];
+        picture.channels.push_back(std::move(channel));
+    }
+    return picture;
 }
 
 void write_standard_output(const std::vector<std::uint8_t>& bytes) {
@@ -137,37 +103,34 @@ void check_writable(const std::string& path) {
     fs::remove(probe);
 }
 
-Picture linear_picture(const Film& film, bool alpha) {
-    Picture picture{film.width, film.height, film.x, film.y, film.full_width, film.full_height, {}, {}};
-    const char* const names[] = {"R", "G", "B", "A"};
-    for (int c = 0; c < (alpha ? 4 : 3); ++c)
-        picture.channels.push_back({names[c], std::vector<float>(film.pixels())});
-    parallel_for(film.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::array<double, 4> mean = pixel_mean(film, i);
-            for (std::size_t c = 0; c < picture.channels.size(); ++c)
-                picture.channels[c].values[i] = static_cast<float>(mean[c]);
-        }
-    });
-    return picture;
-}
-
-void write_outputs(const std::vector<std::string>& paths, const Picture& linear, const OutputStyle& style) {
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+    std::optional<Picture> scene_linear;
+    std::optional<EncodedPicture> display;
     for (const std::string& path : paths) {
         const std::string extension = extension_of(path);
         if (is_linear_format(extension)) {
-            const Picture picture = composited(linear, style);
+            if (!scene_linear) {
+                scene_linear = linear(film, style);
+                scene_linear->metadata = metadata;
+                std::move(layers.begin(), layers.end(), std::back_inserter(scene_linear->channels));
+            }
             if (extension == ".hdr") {
-                write_hdr(path, picture);
-            } else if (const std::size_t saturated = write_exr(path, picture, style.half)) {
+                write_hdr(path, *scene_linear);
+            } else if (const std::size_t saturated = write_exr(path, *scene_linear, style.half)) {
                 warn(path + ": " + std::to_string(saturated) +
                      " values do not fit 16 bits and became 65504; leave out --half to keep them.");
             }
-        } else if (path == "-") {
-            write_standard_output(encode_picture(extension, encoded(linear, style)));
-        } else {
-            write_encoded(path, encoded(linear, style));
+            continue;
         }
+        if (!display) {
+            display = encoded(device, film, style);
+            display->metadata = metadata;
+        }
+        if (path == "-")
+            write_standard_output(encode_picture(extension, *display));
+        else
+            write_encoded(path, *display);
     }
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "device/device.h"
 #include "io/io.h"
-#include "panel/tone_map.h"
 #include "scene/film.h"
 
 namespace triad {
@@ -29,11 +29,10 @@ void check_format(const std::string& path);
 /// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.
 void check_writable(const std::string& path);
 
-/// The scene-linear picture of a film: R, G, B, and A (RGB associated) when `alpha`.
-Picture linear_picture(const Film& film, bool alpha);
-
-/// Writes a linear picture to each path in the form that its extension asks for. `alpha`: keep it where the
-/// format can, when the style has no background colour.
-void write_outputs(const std::vector<std::string>& paths, const Picture& linear, const OutputStyle& style);
+/// Writes the film to each path in the form that its extension asks for. `layers` go into EXR files,
+/// `metadata` into all. Where the film has alpha and the style no background colour, formats that can keep
+/// alpha do.
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata);
 
 }  // namespace triad

@@ -59,7 +59,6 @@ std::uint64_t first_half_below(std::uint64_t n, std::uint64_t bins) {
     return n / (2 * bins) * bins + std::min(n % (2 * bins), bins);
 }
 
-/// Of one channel of one pixel: its mean, and an unbiased estimate of that mean's variance.
 /// How many samples of a pixel fell into each half.
 std::pair<std::uint64_t, std::uint64_t> half_counts(const Film& film) {
     std::uint64_t first = 0;
@@ -68,6 +67,7 @@ std::pair<std::uint64_t, std::uint64_t> half_counts(const Film& film) {
     return {first, film.sample_count() - first};
 }
 
+/// Of one channel of one pixel: its mean, and an unbiased estimate of that mean's variance.
 struct Estimate {
     float mean, variance;
 };

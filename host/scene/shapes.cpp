@@ -80,6 +80,38 @@ Primitive box(const vec3& lo, const vec3& hi, bool inward) {
     return shape;
 }
 
+Primitive rounded_box(const dvec3& half, double radius, unsigned steps) {
+    // Points of the sharp box are pulled onto the rounded one along the normal of the nearest point of the
+    // inner box; tangent spacing makes equal angles of it.
+    const auto coordinates = [&](double h) {
+        std::vector<double> c;
+        for (unsigned i = 0; i <= steps; ++i)
+            c.push_back(-(h - radius) - radius * std::tan(0.25 * pi * (steps - i) / steps));
+        for (unsigned i = 0; i <= steps; ++i) c.push_back(-c[steps - i]);
+        return c;
+    };
+    const dvec3 inner = half - dvec3(radius);
+    Primitive shape;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const int sign : {-1, 1}) {
+            const int u = sign > 0 ? (axis + 1) % 3 : (axis + 2) % 3, v = 3 - axis - u;  // u x v points out
+            const std::vector<double> cu = coordinates(half[u]), cv = coordinates(half[v]);
+            Primitive side;
+            for (const double b : cv)
+                for (const double a : cu) {
+                    dvec3 sharp;
+                    sharp[axis] = sign * half[axis], sharp[u] = a, sharp[v] = b;
+                    const dvec3 core = glm::clamp(sharp, -inner, inner),
+                                normal = glm::normalize(sharp - core);
+                    side.positions.push_back(vec3(core + radius * normal));
+                    side.normals.push_back(vec3(normal));
+                }
+            add_grid(side, unsigned(cu.size() - 1), unsigned(cv.size() - 1));
+            append(shape, side);
+        }
+    return shape;
+}
+
 Primitive lat_long_sphere(const vec3& centre, float radius, unsigned meridians, unsigned parallels) {
     return closed_surface(centre, meridians, parallels, [&](const vec3&) { return radius; });
 }

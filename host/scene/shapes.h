@@ -17,6 +17,10 @@ Primitive quad(const vec3& corner, const vec3& edge_u, const vec3& edge_v, unsig
 /// Twelve triangles between two corners, facing out, or in (a room).
 Primitive box(const vec3& lo, const vec3& hi, bool inward = false);
 
+/// A closed box of these half sizes around the origin whose edges and corners are rounded by `radius` in
+/// `steps` steps, with exact normals. Precondition: 0 < radius <= the least half size.
+Primitive rounded_box(const dvec3& half, double radius, unsigned steps);
+
 /// A closed sphere of meridians x parallels (at least 3 x 2): poles are one vertex each. Normals are the
 /// sphere's.
 Primitive lat_long_sphere(const vec3& centre, float radius, unsigned meridians, unsigned parallels);

@@ -1,0 +1,219 @@
+// triad render: from a scene to pictures.
+#include <chrono>
+#include <cstdio>
+#include <memory>
+
+#include "app/choose_view.h"
+#include "app/command_line.h"
+#include "app/interrupt.h"
+#include "app/metadata.h"
+#include "app/render_options.h"
+#include "app/report.h"
+#include "base/log.h"
+#include "base/parallel_for.h"
+#include "base/progress.h"
+#include "kernels/types.h"
+#include "render/renderer.h"
+#include "scene/builtin_scene.h"
+
+namespace triad {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string format(const char* pattern, auto... values) {
+    char text[512];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+/// The scene with its light: environment of the command line, or a plain sky where nothing gives light.
+Scene load_scene(const RenderOptions& o) {
+    Scene scene;
+    if (o.scene_path.empty()) {
+        scene = builtin_scene();
+    } else {
+        GltfReport report;
+        scene = load_gltf(o.scene_path, {o.scene_index}, &report);
+        for (const std::string& warning : report.warnings) warn(warning);
+    }
+    if (const std::size_t dropped = validate(scene))
+        detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
+    if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
+    if (!has_light(scene)) {
+        scene.sky = vec3(1.0f);
+        inform("The scene has no light: it gets a plain white sky (--env FILE lights it with a panorama).");
+    }
+    return scene;
+}
+
+RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
+    const SceneCamera* camera = o.look_at ? nullptr : choose_camera(scene, o.camera);
+    const uvec2 size = choose_size(o, camera);
+    RenderSettings settings;
+    settings.width = size.x, settings.height = size.y;
+    if (o.crop) settings.crop = *o.crop;
+    settings.bins_x = o.bins_x, settings.bins_y = o.bins_y;
+    settings.seed = o.seed;
+    settings.max_depth = o.max_depth;
+    settings.transparent = o.transparent;
+    settings.view = choose_view(o, scene, camera, size);
+    settings.environment_rotation = o.env_rotate * pi / 180;
+    settings.environment_strength = o.env_strength;
+    return settings;
+}
+
+ProgressStyle style_of(const std::string& name) {
+    if (name == "bar") return ProgressStyle::bar;
+    if (name == "lines") return ProgressStyle::lines;
+    if (name == "json") return ProgressStyle::json;
+    if (name == "none") return ProgressStyle::none;
+    return automatic_progress();
+}
+
+/// The planes of --aov, as EXR channels.
+std::vector<Channel> layers_of(const RenderOptions& o, Renderer& renderer, const Film& film) {
+    std::vector<Channel> layers;
+    auto asked = [&](const char* name) {
+        return std::find(o.aovs.begin(), o.aovs.end(), name) != o.aovs.end();
+    };
+    auto add = [&](const std::string& name, const char* parts, const auto& values) {
+        const std::size_t n = std::char_traits<char>::length(parts);
+        for (std::size_t c = 0; c < n; ++c) {
+            Channel channel{name + "." + parts[c], std::vector<float>(film.pixels())};
+            for (std::size_t i = 0; i < film.pixels(); ++i)
+                channel.values[i] = static_cast<float>(values[i * n + c]);
+            layers.push_back(std::move(channel));
+        }
+    };
+    if (asked("albedo") || asked("normal") || asked("position") || asked("depth")) {
+        constexpr unsigned samples = 16;  // edges and lens blur; the planes have no other noise
+        const Renderer::FeaturePlanes planes = renderer.feature_planes(samples);
+        if (asked("albedo")) add("albedo", "RGB", planes.albedo);
+        if (asked("normal")) add("normal", "XYZ", planes.normal);
+        if (asked("position")) add("position", "XYZ", planes.position);
+        if (asked("depth")) add("depth", "Z", planes.depth);
+    }
+    if (asked("samples")) add("samplecount", "Y", film.samples);
+    if (asked("variance")) {
+        std::vector<float> variance = mean_variance(film);
+        if (variance.empty()) variance.assign(film.pixels() * 3, std::numeric_limits<float>::quiet_NaN());
+        add("variance", "RGB", variance);
+    }
+    return layers;
+}
+
+/// What went wrong with samples is said, not hidden.
+void report_counters(const Film& film, unsigned max_depth) {
+    const auto& n = film.counters;
+    if (n[COUNTER_NOT_FINITE])
+        warn(std::to_string(n[COUNTER_NOT_FINITE]) + " samples were not finite and count as black.");
+    if (n[COUNTER_SATURATED])
+        warn(std::to_string(n[COUNTER_SATURATED]) + " samples were too bright for the film and were cut.");
+    if (n[COUNTER_TRUNCATED])
+        detail(format("%llu paths were cut at depth %u",
+                      static_cast<unsigned long long>(n[COUNTER_TRUNCATED]), max_depth));
+}
+
+Exit run(RenderOptions o) {
+    complete(o);
+    // Everything that can be wrong is found before the long part.
+    for (const std::string& path : o.outputs) check_writable(path);
+    for (const std::string& path : {o.film_path, o.json_path})
+        if (!path.empty()) check_writable(path);
+    set_host_threads(o.threads);
+    if (!o.kernels_path.empty()) kernel_source::set_folder(o.kernels_path);
+
+    const auto load_start = Clock::now();
+    const Scene scene = load_scene(o);
+    const RenderSettings settings = settings_of(o, scene);
+    const double load_s = since(load_start);
+    Device device = Device::open({.selector = o.device, .threads = o.threads});
+    detail("Device: " + device.info().name + ", driver " + device.info().driver);
+    Renderer renderer(device, scene, settings);
+    std::string left_out_text;
+    for (const std::string& name : left_out(renderer.features()))
+        left_out_text += (left_out_text.empty() ? "" : ", ") + name;
+    detail(format("Loaded in %.2f s, trees and packing %.2f s, kernels %.2f s, %s on the device", load_s,
+                  renderer.build_seconds(), renderer.compile_seconds(),
+                  bytes_text(renderer.device_bytes()).c_str()));
+    detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
+
+    const InterruptGuard guard;
+    const SampleRange wanted = o.sample_range();
+    const auto render_start = Clock::now();
+    SampleRange done;
+    {
+        ProgressDisplay display(style_of(o.progress));
+        done = renderer.render(wanted, [&](const Progress& p) {
+            display.update(
+                {double(p.samples_done) / double(p.samples_wanted), p.seconds, p.samples_done, p.relmse});
+            return !guard.interrupted();
+        });
+    }
+    const double render_s = since(render_start);
+    const Film film = renderer.film();
+    const bool complete = done == wanted;
+
+    Metadata metadata = metadata_of(film);
+    metadata["triad:driver"] = device.info().driver;
+    metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", render_s);
+    if (!o.film_path.empty()) save_film(o.film_path, film);
+    write_outputs(o.outputs, device, film, o.style, layers_of(o, renderer, film), metadata);
+    report_counters(film, o.max_depth);
+
+    const double relmse = estimated_relmse(film),
+                 mrays = double(film.counters[COUNTER_RAYS]) / render_s / 1e6;
+    if (!o.json_path.empty()) {
+        const auto& n = film.counters;
+        const Json row = {{"scene", o.scene_path.empty() ? "built-in" : o.scene_path},
+                          {"scene_hash", film.scene},
+                          {"settings_hash", film.settings},
+                          {"width", film.width},
+                          {"height", film.height},
+                          {"spp", film.sample_count()},
+                          {"seed", o.seed},
+                          {"complete", complete},
+                          {"load_s", load_s},
+                          {"build_s", renderer.build_seconds()},
+                          {"compile_s", renderer.compile_seconds()},
+                          {"render_s", render_s},
+                          {"relmse", relmse < 0 ? Json() : Json(relmse)},
+                          {"rays", n[COUNTER_RAYS]},
+                          {"mrays", mrays},
+                          {"device", device.info().name},
+                          {"driver", device.info().driver},
+                          {"device_bytes", renderer.device_bytes()},
+                          {"left_out", left_out(renderer.features())},
+                          {"not_finite", n[COUNTER_NOT_FINITE]},
+                          {"saturated", n[COUNTER_SATURATED]},
+                          {"truncated", n[COUNTER_TRUNCATED]},
+                          {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / 65536}};
+        write_report(o.json_path, "render", &device.info(), Json::array({row}));
+    }
+    std::string names;
+    for (const std::string& path : o.outputs) names += (names.empty() ? "" : ", ") + path;
+    if (!o.film_path.empty()) names += (names.empty() ? "" : ", ") + o.film_path;
+    inform(format("%s: %ux%u, %llu samples per pixel in %.1f s, %.2f Mrays/s, relMSE %s", names.c_str(),
+                  film.width, film.height, static_cast<unsigned long long>(film.sample_count()), render_s,
+                  mrays, relmse < 0 ? "not known" : format("%.2g", relmse).c_str()));
+    if (complete) return Exit::done;
+    inform(format("Stopped early: samples %llu to %llu are there of %llu to %llu.",
+                  static_cast<unsigned long long>(done.begin), static_cast<unsigned long long>(done.end),
+                  static_cast<unsigned long long>(wanted.begin),
+                  static_cast<unsigned long long>(wanted.end)));
+    return Exit::interrupted;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<RenderOptions>();
+    CLI::App* command = app.add_subcommand("render", "Render a scene; without one the built-in scene");
+    declare(*command, *o);
+    command->callback([o, &exit] { exit = run(*o); });
+}
+
+}  // namespace triad

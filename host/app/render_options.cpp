@@ -1,0 +1,163 @@
+#include "app/render_options.h"
+
+#include <algorithm>
+
+#include "app/command_line.h"
+
+namespace triad {
+namespace {
+
+const char* const view_group = "View";
+const char* const light_group = "Light and background";
+const char* const output_group = "Output";
+const char* const machine_group = "Machine";
+
+/// An option whose text `assign` parses; a bad text is an Error(usage) that names the option.
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& form,
+                        const std::string& help, std::function<void(const std::string&)> assign) {
+    return command.add_option_function<std::string>(name, std::move(assign), help)->type_name(form);
+}
+
+}  // namespace
+
+void declare(CLI::App& command, RenderOptions& o) {
+    command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
+        ->type_name("");
+    command.add_option("--spp", o.spp, "Samples per pixel (default 64)")
+        ->check(CLI::Range(1u, 1u << 30))
+        ->type_name("N");
+    command.add_option("--seed", o.seed, "Of the random numbers (default 0)")->type_name("N");
+    command
+        .add_option("--max-depth", o.max_depth,
+                    "Longest path in edges: 1 emitters only, 2 direct light (default 0: no limit)")
+        ->type_name("N");
+    add_parsed(command, "--samples", "A:B", "Only this half-open range of sample indices, for triad merge",
+               [&o](const std::string& v) { o.samples = parse_range("--samples", v); });
+
+    add_parsed(command, "--size", "WxH", "Of the picture (default 1280x720, or the aspect of the camera)",
+               [&o](const std::string& v) { o.size = parse_size("--size", v); })
+        ->group(view_group);
+    add_parsed(command, "--crop", "X,Y,W,H", "Render this part of the picture only",
+               [&o](const std::string& v) {
+                   const auto n = parse_numbers("--crop", v, 4);
+                   for (double x : n)
+                       if (x < 0 || x > 65536 || x != std::floor(x))
+                           throw Error(Exit::usage, "--crop " + v + ": expected whole pixels.");
+                   o.crop = {unsigned(n[0]), unsigned(n[1]), unsigned(n[2]), unsigned(n[3])};
+               })
+        ->group(view_group);
+    command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("N")
+        ->group(view_group);
+    CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
+                              ->type_name("NAME|INDEX")
+                              ->group(view_group);
+    add_parsed(command, "--look-at", "EX,EY,EZ,TX,TY,TZ", "From this eye point to this target",
+               [&o](const std::string& v) {
+                   const auto n = parse_numbers("--look-at", v, 6);
+                   o.look_at.emplace();
+                   std::copy(n.begin(), n.end(), o.look_at->begin());
+               })
+        ->excludes(camera)
+        ->group(view_group);
+    command.add_option("--fov", o.fov, "Vertical angle of view in degrees")
+        ->check(CLI::Range(0.001, 179.0))
+        ->type_name("DEG")
+        ->group(view_group);
+    command.add_option("--aperture", o.aperture, "Lens radius in scene units (default 0: all sharp)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("R")
+        ->group(view_group);
+    command
+        .add_option(
+            "--focus", o.focus,
+            "Distance that is sharp, along the view (default: the target, or the middle of the scene)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("D")
+        ->group(view_group);
+
+    CLI::Option* env = command.add_option("--env", o.env_path, "Lat-long environment, .hdr or .exr")
+                           ->type_name("FILE")
+                           ->group(light_group);
+    command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis")
+        ->type_name("DEG")
+        ->needs(env)
+        ->group(light_group);
+    command.add_option("--env-strength", o.env_strength, "Brightness of environment or sky (default 1)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("X")
+        ->group(light_group);
+    add_parsed(command, "--background", "env|transparent|#RRGGBB",
+               "What is seen behind everything (default env)",
+               [&o](const std::string& v) {
+                   o.transparent = v != "env";
+                   if (v != "env" && v != "transparent") o.style.background = parse_colour("--background", v);
+               })
+        ->group(light_group);
+
+    command
+        .add_option("-o,--output", o.outputs,
+                    "Picture: .exr, .hdr (linear), .png, .jpg (tone-mapped), - (PNG on standard output); "
+                    "several allowed")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->group(output_group);
+    declare_style(command, o.style);
+    command
+        .add_option("--aov", o.aovs,
+                    "Layers for EXR files: albedo, normal, position, depth, samples, variance, or all")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "all"}))
+        ->type_name("LIST")
+        ->group(output_group);
+    add_parsed(command, "--bins", "BXxBY", "Bins of the film per pixel (default 1x1)",
+               [&o](const std::string& v) {
+                   const uvec2 bins = parse_size("--bins", v);
+                   if (std::max(bins.x, bins.y) > 16)
+                       throw Error(Exit::usage, "--bins " + v + ": at most 16x16.");
+                   o.bins_x = bins.x, o.bins_y = bins.y;
+               })
+        ->group(output_group);
+    command.add_option("--film", o.film_path, "Also write the film, for triad merge and triad resolve")
+        ->type_name("FILE")
+        ->group(output_group);
+    command.add_option("--json", o.json_path, "Write times, rays and errors as JSON")
+        ->type_name("FILE")
+        ->group(output_group);
+    command.add_option("--progress", o.progress, "On standard error: auto, bar, lines, json or none")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+        ->type_name("STYLE")
+        ->group(output_group);
+
+    command.add_option("--device", o.device, "Number, cpu, gpu, or part of a name (see triad devices)")
+        ->type_name("SEL")
+        ->group(machine_group);
+    command.add_option("--threads", o.threads, "Cores to use, here and on CPU devices (default 0: all)")
+        ->type_name("N")
+        ->group(machine_group);
+    command
+        .add_option("--kernels", o.kernels_path, "Read kernel source from here instead of the copy inside")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR")
+        ->group(machine_group);
+}
+
+void complete(RenderOptions& o) {
+    // A film alone is a complete result: a part of a larger render.
+    if (o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
+    for (const std::string& path : o.outputs) check_format(path);
+    if (std::count(o.outputs.begin(), o.outputs.end(), "-") + (o.json_path == "-") > 1)
+        throw Error(Exit::usage, "Only one of the outputs can go to standard output.");
+    if (std::find(o.aovs.begin(), o.aovs.end(), "all") != o.aovs.end())
+        o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance"};
+    const bool exr =
+        std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& path) { return is_exr(path); });
+    if (!o.aovs.empty() && !exr)
+        throw Error(Exit::usage, "--aov needs an .exr output to put the layers in; add -o FILE.exr.");
+    if (o.crop && ((*o.crop)[2] == 0 || (*o.crop)[3] == 0))
+        throw Error(Exit::usage, "--crop: width and height must be at least 1.");
+}
+
+}  // namespace triad

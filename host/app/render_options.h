@@ -1,0 +1,52 @@
+#pragma once
+/// The options of `triad render`, as typed in and checked; nothing here touches a scene or a device.
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/output.h"
+#include "base/math.h"
+#include "scene/film.h"
+
+namespace triad {
+
+struct RenderOptions {
+    std::string scene_path;  ///< empty: the built-in scene
+    std::vector<std::string> outputs;
+    std::string film_path, json_path, kernels_path;
+    std::optional<uvec2> size;
+    std::optional<std::array<unsigned, 4>> crop;
+    std::uint64_t spp = 64;
+    std::optional<SampleRange> samples;
+    std::uint32_t seed = 0;
+    unsigned max_depth = 0;
+    unsigned bins_x = 1, bins_y = 1;
+    std::string device;
+    unsigned threads = 0;
+
+    int scene_index = -1;
+    std::string camera;
+    std::optional<std::array<double, 6>> look_at;
+    std::optional<double> fov;  ///< vertical, degrees
+    std::optional<double> aperture, focus;
+
+    std::string env_path;
+    double env_rotate = 0;  ///< degrees
+    double env_strength = 1;
+    bool transparent = false;
+    OutputStyle style;  ///< exposure, tone map, background colour, half
+    std::vector<std::string> aovs;
+    std::string progress = "auto";
+
+    /// What decides the picture beside the scene, as text; its hash names the settings in films.
+    SampleRange sample_range() const { return samples.value_or(SampleRange{0, spp}); }
+};
+
+/// Declares the options on a subcommand. `options` must outlive the parsing.
+void declare(CLI::App& command, RenderOptions& options);
+
+/// After parsing: fills in the default output and checks what options say together. Throws Error(usage).
+void complete(RenderOptions& options);
+
+}  // namespace triad
