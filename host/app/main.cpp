@@ -1,4 +1,5 @@
 // The only place that catches, prints and exits.
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -68,6 +69,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
+    std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
     try {
         return run(argc, argv);
     } catch (const Error& error) {

@@ -1,0 +1,98 @@
+// What the command line promises: exit codes, and sentences that name what is wrong. Nothing here needs a
+// device.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Outcome {
+    int exit = -1;
+    std::string output;  ///< both streams
+};
+
+Outcome triad(const std::string& arguments, const std::string& before = "") {
+    Outcome outcome;
+    FILE* pipe = ::popen((before + " '" TRIAD_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
+    std::array<char, 4096> buffer;
+    for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        outcome.output.append(buffer.data(), n);
+    const int status = ::pclose(pipe);
+    outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+void expect(const std::string& arguments, int exit, const std::string& sentence,
+            const std::string& before = "") {
+    const Outcome outcome = triad(arguments, before);
+    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
+    EXPECT_NE(outcome.output.find(sentence), std::string::npos) << arguments << "\n" << outcome.output;
+}
+
+}  // namespace
+
+TEST(CommandLine, help_and_version_are_no_errors) {
+    expect("", 0, "render");
+    expect("render --help", 0, "--spp");
+    expect("--version", 0, "triad ");
+}
+
+TEST(CommandLine, slips_get_a_hint) {
+    expect("rendr", 1, "Did you mean render?");
+    expect("render --sp=4", 1, "Did you mean --spp?");
+    expect("render --nothing-like-it", 1, "triad render --help");
+}
+
+TEST(CommandLine, bad_values_are_named) {
+    expect("render --size 0x9", 1, "--size 0x9");
+    expect("render --size 12y", 1, "--size 12y");
+    expect("render --samples 4:4", 1, "--samples 4:4");
+    expect("render --look-at 1,2,3", 1, "--look-at 1,2,3");
+    expect("render --background '#12345g'", 1, "#12345g");
+    expect("render --tonemap filmic", 1, "filmic");
+    expect("render --spp none", 1, "none");
+    expect("render --crop 0,0,0,5", 1, "--crop");
+    expect("render -o picture.bmp", 1, "picture.bmp");
+    expect("render --aov normal -o x.png", 1, "--aov");
+    expect("render --camera no-such-camera", 1, "no-such-camera");
+}
+
+TEST(CommandLine, missing_files_are_scene_errors) {
+    expect("render /no/such/file.glb", 2, "/no/such/file.glb");
+    expect("info /no/such/file.glb", 2, "/no/such/file.glb");
+    expect("merge /no/such.film -o /tmp/x.triadfilm", 2, "/no/such.film");
+    expect("compare /no/such.exr /no/such.exr", 2, "/no/such.exr");
+}
+
+TEST(CommandLine, outputs_are_checked_before_rendering) {
+    expect("render -o /no/such/folder/x.png --spp 1000000", 2, "/no/such/folder");
+    expect("render -o /tmp --spp 1000000", 1, "/tmp");
+    expect("render --film /no/such/folder/x --spp 1000000", 2, "/no/such/folder");
+}
+
+TEST(CommandLine, no_driver_is_a_device_error) {
+    expect("render --size 8x8 -o /tmp/triad-cli-test.png", 5, "OpenCL", "OCL_ICD_VENDORS=/no/such/folder");
+    expect("devices", 5, "OpenCL", "OCL_ICD_VENDORS=/no/such/folder");
+}
+
+TEST(CommandLine, a_full_disk_leaves_an_older_report_as_it_was) {
+    const fs::path folder = fs::temp_directory_path() / ("triad-cli-test-" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    const std::string report = (folder / "devices.json").string();
+    std::ofstream(report) << "older";
+    // A file size limit of nothing is the disk that fills up at the first byte.
+    expect("devices --json " + report, 2, "devices.json", "ulimit -f 0;");
+    std::ifstream file(report);
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "older");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "something was left behind";
+    fs::remove_all(folder);
+    EXPECT_EQ(triad("devices --json - >/dev/full").exit, 2);
+}
