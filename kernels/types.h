@@ -186,19 +186,21 @@ TRIAD_SIZE(Material, 128);
  * directional. Emissive geometry is always flattened, so positions are in rebased world space. */
 typedef struct Light {
     uint type;
-    uint primitive;   /* TRIANGLE: its Triangle */
-    float pick;       /* probability that light sampling picks this light */
-    float area;       /* TRIANGLE */
+    uint primitive;    /* TRIANGLE: its Triangle */
+    float pick;        /* probability that light sampling picks this light */
+    float area;        /* TRIANGLE */
     float position[3]; /* corner 0, or the position */
-    float range;      /* punctual; 0 = no limit */
-    float edge1[3];   /* TRIANGLE: corner 1 - corner 0; SPOT, DIRECTIONAL: unit direction of emission */
-    float cone_scale; /* SPOT: attenuation = clamp(cos * scale + offset, 0, 1)^2 */
-    float edge2[3];   /* TRIANGLE: corner 2 - corner 0 */
+    float range;       /* punctual; 0 = no limit */
+    float edge1[3];    /* TRIANGLE: corner 1 - corner 0 */
+    float cone_scale;  /* SPOT: attenuation = clamp(cos * scale + offset, 0, 1)^2 */
+    float edge2[3];    /* TRIANGLE: corner 2 - corner 0 */
     float cone_offset;
+    float axis[3]; /* unit; TRIANGLE: normal of the front; SPOT, DIRECTIONAL: where the light goes */
+    uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material */
     float colour[3];
-    uint flags; /* MATERIAL_DOUBLE_SIDED of the triangle's material */
+    uint unused;
 } Light;
-TRIAD_SIZE(Light, 80);
+TRIAD_SIZE(Light, 96);
 
 /* The environment: radiance = strength * texel, bilinear. World y is up before the rotation about it.
  * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere. */

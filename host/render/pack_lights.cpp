@@ -83,6 +83,7 @@ void add_triangles(const Scene& scene, Picker& picker) {
             copy(light.position, corner(0));
             copy(light.edge1, e1);
             copy(light.edge2, e2);
+            copy(light.axis, area > 0 ? glm::normalize(glm::cross(e1, e2)) : dvec3(0, 1, 0));
             copy(light.colour, dvec3(m.emission));
             light.flags = m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u;
             picker.add(light, in_tree[i] ? pi * area * radiance * (m.double_sided ? 2.0 : 1.0) : 0.0);
@@ -95,7 +96,7 @@ void add_punctual(const Scene& scene, Picker& picker) {
     for (const PunctualLight& l : scene.lights) {
         dev::Light light{};
         copy(light.position, l.position - picker.packed.origin);
-        copy(light.edge1, l.direction);
+        copy(light.axis, l.direction);
         copy(light.colour, dvec3(l.colour));
         light.range = l.range;
         const double intensity = luminance(l.colour);

@@ -2,31 +2,21 @@
  * Nothing is stored, so that a picture does not depend on batch size, order, resume or merge. Integers only
  * up to the last step: the same bits on every device.
  *
- * Sets 0 to SAMPLER_SOBOL_SETS - 1 are the first two dimensions of Sobol's sequence, Owen-scrambled, with the
- * index shuffled anew for each set (Burley 2020, "Practical Hash-based Owen Scrambling"; the hash is Laine
- * and Karras's with Vegdahl's constants, as in pbrt-v4's FastOwenScrambler). Sets beyond are hashed.
+ * Sets come in blocks of four, which are computed together: four lanes of one vector on a CPU. The sets of
+ * the first SAMPLER_SOBOL_BLOCKS blocks are the first two dimensions of Sobol's sequence, Owen-scrambled,
+ * with the index shuffled anew for each set (Burley 2020, "Practical Hash-based Owen Scrambling"; the hash is
+ * Laine and Karras's with Vegdahl's constants, as in pbrt-v4's FastOwenScrambler). Sets beyond are hashed.
  *
- * The plan of the path tracer: set 0 pixel, 1 lens, 2 (wavelength, time), and for bounce b SAMPLER_BOUNCE(b)
- * plus
- * - 0: direction of the BSDF
- * - 1: (lobe, roulette)
- * - 2: (choice of light, spare)
- * - 3: point on the light
+ * The plan of the path tracer: block 0 is pixel, lens, (wavelength, time), spare; block b, for the b-th
+ * vertex of the path, is direction of the BSDF, (lobe, roulette), (choice of light, spare), point on it.
  */
 #ifndef TRIAD_COMMON_RANDOM_H
 #define TRIAD_COMMON_RANDOM_H
 
 #include "common/language.h"
 
-#define SAMPLER_PIXEL 0u
-#define SAMPLER_LENS 1u
-#define SAMPLER_TIME 2u
-#define SAMPLER_BOUNCE(b) (3u + 4u * (b))
-#define SAMPLER_DIRECTION 0u
-#define SAMPLER_LOBE 1u
-#define SAMPLER_LIGHT 2u
-#define SAMPLER_POINT 3u
-#define SAMPLER_SOBOL_SETS SAMPLER_BOUNCE(8u)
+#define SAMPLER_SOBOL_BLOCKS 9u
+#define SAMPLER_SOBOL_SETS (4u * SAMPLER_SOBOL_BLOCKS)
 
 /* 24 bits, in [0, 1 - 2^-24]: float(u) * 2^-32 would reach 1. */
 TRIAD_FUNCTION float random_float(uint bits) { return convert_float(bits >> 8) * 5.9604644775390625e-8f; }
@@ -55,16 +45,17 @@ TRIAD_FUNCTION uint4 random_pcg4d(uint4 v) {
  * coverage). */
 TRIAD_FUNCTION uint random_hash(uint4 name) { return random_pcg4d(name).x; }
 
-TRIAD_FUNCTION uint random_reverse_bits(uint v) {
+TRIAD_FUNCTION uint4 random_reverse_bits4(uint4 v) {
     v = (v << 16) | (v >> 16);
     v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
     v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
     v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
     return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
 }
-/* Owen's nested uniform scramble of a number whose bits are reversed: a bit is flipped by a hash of the bits
+TRIAD_FUNCTION uint random_reverse_bits(uint v) { return random_reverse_bits4((uint4)(v)).x; }
+/* Owen's nested uniform scramble of numbers whose bits are reversed: a bit is flipped by a hash of the bits
  * below. */
-TRIAD_FUNCTION uint random_owen_reversed(uint v, uint seed) {
+TRIAD_FUNCTION uint4 random_owen_reversed(uint4 v, uint4 seed) {
     v ^= v * 0x3d20adeau;
     v += seed;
     v *= (seed >> 16) | 1u;
@@ -74,7 +65,7 @@ TRIAD_FUNCTION uint random_owen_reversed(uint v, uint seed) {
 }
 /* Dimension 1 of Sobol's sequence with its bits reversed, from the index: Pascal's triangle modulo 2 as five
  * masked shifts. Dimension 0 with its bits reversed is the index itself. */
-TRIAD_FUNCTION uint random_sobol1_reversed(uint index) {
+TRIAD_FUNCTION uint4 random_sobol1_reversed(uint4 index) {
     index ^= (index >> 1) & 0x55555555u;
     index ^= (index >> 2) & 0x33333333u;
     index ^= (index >> 4) & 0x0f0f0f0fu;
@@ -99,18 +90,43 @@ TRIAD_FUNCTION Sampler sampler_make(uint pixel, uint index, uint index_high, uin
     return s;
 }
 
-TRIAD_FUNCTION uint2 sampler_2d_bits(const Sampler* s, uint set) {
-    if (set >= SAMPLER_SOBOL_SETS)
-        return random_pcg4d((uint4)(s->key0, random_mix(s->index_reversed), set, s->key1)).xy;
-    uint hash = random_mix(s->key0 ^ (set * 0x9e3779b9u));
+/* The four sets of a block: lane i is set 4 block + i, (x, y) its two dimensions. */
+typedef struct SamplerBlock {
+    uint4 x, y;
+} SamplerBlock;
+
+TRIAD_FUNCTION SamplerBlock sampler_block(const Sampler* s, uint block) {
+    SamplerBlock b;
+    if (block >= SAMPLER_SOBOL_BLOCKS) {
+        b.x = random_pcg4d((uint4)(s->key0, s->index_reversed, 2u * block, s->key1));
+        b.y = random_pcg4d((uint4)(s->key0, s->index_reversed, 2u * block + 1u, s->key1));
+        return b;
+    }
+    const uint4 set = 4u * block + (uint4)(0u, 1u, 2u, 3u);
+    /* lowbias32, four at a time */
+    uint4 hash = s->key0 ^ (set * 0x9e3779b9u);
+    hash = (hash ^ (hash >> 16)) * 0x7feb352du;
+    hash = (hash ^ (hash >> 15)) * 0x846ca68bu;
+    hash ^= hash >> 16;
     /* Owen-scrambled van der Corput numbers are a shuffled index with its bits reversed */
-    uint index = random_reverse_bits(random_owen_reversed(s->index_reversed, hash));
-    uint x = random_owen_reversed(index, hash * 0x2c1b3c6du + s->key1);
-    uint y = random_owen_reversed(random_sobol1_reversed(index), hash * 0x297a2d39u ^ s->key1);
-    return (uint2)(random_reverse_bits(x), random_reverse_bits(y));
+    const uint4 index = random_reverse_bits4(random_owen_reversed((uint4)(s->index_reversed), hash));
+    b.x = random_reverse_bits4(random_owen_reversed(index, hash * 0x2c1b3c6du + s->key1));
+    b.y = random_reverse_bits4(
+        random_owen_reversed(random_sobol1_reversed(index), (hash * 0x297a2d39u) ^ s->key1));
+    return b;
+}
+
+/* One set alone. */
+TRIAD_FUNCTION uint2 sampler_2d_bits(const Sampler* s, uint set) {
+    const SamplerBlock b = sampler_block(s, set >> 2);
+    const uint lane = set & 3u;
+    return lane == 0u   ? (uint2)(b.x.s0, b.y.s0)
+           : lane == 1u ? (uint2)(b.x.s1, b.y.s1)
+           : lane == 2u ? (uint2)(b.x.s2, b.y.s2)
+                        : (uint2)(b.x.s3, b.y.s3);
 }
 TRIAD_FUNCTION float2 sampler_2d(const Sampler* s, uint set) {
-    uint2 bits = sampler_2d_bits(s, set);
+    const uint2 bits = sampler_2d_bits(s, set);
     return (float2)(random_float(bits.x), random_float(bits.y));
 }
 

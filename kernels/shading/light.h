@@ -29,10 +29,9 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
     const float3 e1 = (float3)(light->edge1[0], light->edge1[1], light->edge1[2]);
     const float3 e2 = (float3)(light->edge2[0], light->edge2[1], light->edge2[2]);
     float3 q = (float3)(light->position[0], light->position[1], light->position[2]) + e1 * b.x + e2 * b.y;
-    const float3 any = (float3)(0.0f);
-    float3 n = normalize_or(math_cross(normalize_or(e1, any), normalize_or(e2, any)), any);
+    float3 n = (float3)(light->axis[0], light->axis[1], light->axis[2]);
     const float3 d = q - p;
-    s->direction = normalize_or(d, any);
+    s->direction = normalize_or(d, (float3)(0.0f));
     float cosine = -math_dot(n, s->direction);
     if (cosine < 0.0f && (light->flags & MATERIAL_DOUBLE_SIDED)) {
         cosine = -cosine;
@@ -65,7 +64,7 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
 /* KHR_lights_punctual. */
 TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSample* s) {
     const float3 colour = (float3)(light->colour[0], light->colour[1], light->colour[2]);
-    const float3 axis = (float3)(light->edge1[0], light->edge1[1], light->edge1[2]);
+    const float3 axis = (float3)(light->axis[0], light->axis[1], light->axis[2]);
     s->pdf = 0.0f;
     if (light->type == LIGHT_DIRECTIONAL) {
         s->direction = -axis;

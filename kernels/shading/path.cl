@@ -158,12 +158,11 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         const ShadingFrame around = frame_make(ns);
         const float3 wo_local = frame_to_local(&around, wo);
         const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
-        const uint set = SAMPLER_BOUNCE(edge - 1u);
+        const SamplerBlock u = sampler_block(sampler, edge);
 
         if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
             LightSample light;
-            if (light_sample(scene, s.position, sampler_2d_bits(sampler, set + SAMPLER_LIGHT).x,
-                             sampler_2d_bits(sampler, set + SAMPLER_POINT), &light)) {
+            if (light_sample(scene, s.position, u.x.s2, (uint2)(u.x.s3, u.y.s3), &light)) {
                 const float side = math_dot(light.direction, ng);
                 const float3 wi = frame_to_local(&around, light.direction);
                 /* the shading normal must not move light through the surface */
@@ -186,9 +185,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
             }
         }
 
-        const float2 choice = sampler_2d(sampler, set + SAMPLER_LOBE);
-        const BsdfSample sample =
-            bsdf_sample(&bsdf, wo_local, choice.x, sampler_2d(sampler, set + SAMPLER_DIRECTION));
+        const BsdfSample sample = bsdf_sample(&bsdf, wo_local, random_float(u.x.s1),
+                                              (float2)(random_float(u.x.s0), random_float(u.y.s0)));
         if (sample.event == BSDF_NONE) break;
         const float3 direction = frame_to_world(&around, sample.wi);
         const float side = math_dot(direction, ng);
@@ -204,7 +202,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         if (edge >= ROULETTE_FROM) {
             const float most = edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
             const float survive = math_min(math_max3(throughput) / body_scale, most);
-            if (!(choice.y < survive)) break;
+            if (!(random_float(u.y.s1) < survive)) break;
             throughput *= 1.0f / survive;
         } else if (!(math_max3(throughput) > 0.0f)) {
             break;
@@ -259,7 +257,8 @@ TRIAD_FUNCTION SampleName path_sample(const Frame* frame, uint pixel, ulong s) {
 }
 
 TRIAD_FUNCTION Ray path_camera_ray(const Frame* frame, const SampleName* name, uint x, uint y) {
-    float2 at = sampler_2d(&name->position, SAMPLER_PIXEL);
+    const SamplerBlock u = sampler_block(&name->position, 0u);
+    float2 at = (float2)(random_float(u.x.s0), random_float(u.y.s0));
 #if TRIAD_BINS
     at.x = (at.x + (float)(name->bin % frame->bins[0])) / (float)frame->bins[0];
     at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
@@ -267,7 +266,7 @@ TRIAD_FUNCTION Ray path_camera_ray(const Frame* frame, const SampleName* name, u
     const Camera camera = frame->camera;
     return camera_ray(&camera, (float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y,
 #if TRIAD_LENS
-                      sampler_2d(&name->path, SAMPLER_LENS)
+                      sampler_2d(&name->path, 1u)
 #else
                       (float2)(0.0f)
 #endif

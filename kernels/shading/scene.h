@@ -72,13 +72,19 @@ TRIAD_FUNCTION float3 transform_normal(global const float* inverse, float3 n) {
 
 TRIAD_FUNCTION float max_abs3(float3 a) { return math_max3(fabs(a)); }
 
-/* v / |v|, or `fallback` when v is zero. Scaled by a power of two first, so that no square under- or
- * overflows and scaling v by a power of two changes no bit. */
-TRIAD_FUNCTION float3 normalize_or(float3 v, float3 fallback) {
+/* v times a power of two that brings its largest component into [1, 2); zero and non-finite vectors stay.
+ * Exact, so that scaling v by a power of two changes no bit of what follows, and no later square under- or
+ * overflows. */
+TRIAD_FUNCTION float3 scale_to_one(float3 v) {
     const uint exponent = as_uint(max_abs3(v)) & 0x7f800000u;
-    if (exponent == 0u || exponent >= 0x7f000000u) return fallback;
-    v *= as_float(0x7f000000u - exponent);
-    return v * (1.0f / sqrt(math_dot(v, v)));
+    return exponent == 0u || exponent >= 0x7f000000u ? v : v * as_float(0x7f000000u - exponent);
+}
+
+/* v / |v|, or `fallback` when v is zero or not finite. */
+TRIAD_FUNCTION float3 normalize_or(float3 v, float3 fallback) {
+    v = scale_to_one(v);
+    const float length2 = math_dot(v, v);
+    return length2 >= 1.0f && length2 < 16.0f ? v * (1.0f / sqrt(length2)) : fallback;
 }
 
 #endif
