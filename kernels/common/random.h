@@ -98,8 +98,10 @@ typedef struct SamplerBlock {
 TRIAD_FUNCTION SamplerBlock sampler_block(const Sampler* s, uint block) {
     SamplerBlock b;
     if (block >= SAMPLER_SOBOL_BLOCKS) {
-        b.x = random_pcg4d((uint4)(s->key0, s->index_reversed, 2u * block, s->key1));
-        b.y = random_pcg4d((uint4)(s->key0, s->index_reversed, 2u * block + 1u, s->key1));
+        /* pcg4d carries upwards only: the low bits of a reversed index would not see its neighbour's high ones */
+        const uint index = random_mix(s->index_reversed ^ s->key1);
+        b.x = random_pcg4d((uint4)(s->key0, index, 2u * block, s->key1));
+        b.y = random_pcg4d((uint4)(s->key0, index, 2u * block + 1u, s->key1));
         return b;
     }
     const uint4 set = 4u * block + (uint4)(0u, 1u, 2u, 3u);
