@@ -51,6 +51,10 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
         radiance = surface_emission(scene, m, uv0, uv1);
     }
 #endif
+#if TRIAD_ALPHA_TEST
+    /* The shadow ray ends short of the light, so that no ray asks for the coverage of the light itself. */
+    radiance *= surface_coverage(scene, light->primitive, b.x, b.y);
+#endif
     s->pdf = light_triangle_pdf(light, distance2, cosine);
     s->weight = radiance * (light->area * cosine / (distance2 * light->pick));
     /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */

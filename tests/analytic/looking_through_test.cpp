@@ -1,0 +1,54 @@
+// What rays pass on their way: alpha, transparent backgrounds, bodies with something inside, far texture
+// tiles.
+#include <gtest/gtest.h>
+
+#include "analytic/analytic_scene.h"
+
+namespace triad::analytic {
+namespace {
+
+const View down = orthographic({0, 0, 0}, {0, -1, 0}, 0.1, 0.4);
+
+Primitive square(double height, bool up, double half) {
+    const float h = static_cast<float>(half), y = static_cast<float>(height);
+    return up ? shapes::quad({-h, y, h}, {2 * h, 0, 0}, {0, 0, -2 * h})
+              : shapes::quad({-h, y, -h}, {2 * h, 0, 0}, {0, 0, 2 * h});
+}
+
+Film picture(const Scene& scene, bool transparent) {
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.view = down;
+    settings.transparent = transparent;
+    Scene copy = scene;
+    validate(copy);
+    Renderer renderer(test_device(), copy, settings);
+    renderer.render({0, 256}, [](const Progress&) { return true; });
+    return renderer.film();
+}
+
+double mean_of(const Film& film, int channel) {
+    double sum = 0;
+    for (std::size_t p = 0; p < film.pixels(); ++p) sum += pixel_mean(film, p)[channel];
+    return sum / static_cast<double>(film.pixels());
+}
+
+TEST(Alpha, a_lamp_with_coverage_lights_by_its_share) {
+    for (AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
+        Builder b;
+        Material lamp = emitter(1.0f);
+        lamp.alpha_mode = mode;
+        lamp.base_colour.w = 0.25f;
+        b.add(square(0, true, 2), lambert(1.0f)).add(square(1, false, 0.5), lamp);
+        const Measured m = measure(
+            b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-3, 0.5), .spp = 256, .max_depth = 2});
+        // D2: E / L = .752274688 below the centre of a unit square at height 1.
+        if (mode == AlphaMode::mask)
+            EXPECT_EQ(m.mean, 0.0);
+        else
+            expect_closed_form("blend", m, 0.25 * 0.752274688 / pi, 1e-4);
+    }
+}
+
+}  // namespace
+}  // namespace triad::analytic
