@@ -31,7 +31,7 @@ TRIAD_FUNCTION float4 texture_texel(const Scene* scene, const Texture* t, uint x
 }
 
 /* Keeps huge and non-finite coordinates from overflowing the conversion to int. */
-TRIAD_FUNCTION float texture_coordinate(float x) { return x > -1e6f && x < 1e6f ? x : 0.0f; }
+TRIAD_FUNCTION float texture_coordinate(float x) { return x > -1e9f && x < 1e9f ? x : 0.0f; }
 
 TRIAD_FUNCTION float4 texture_sample(const Scene* scene, uint texture, float2 uv) {
     const Texture t = scene->textures[texture];

@@ -50,5 +50,27 @@ TEST(Alpha, a_lamp_with_coverage_lights_by_its_share) {
     }
 }
 
+TEST(Texture, repeats_as_well_far_from_the_origin) {
+    // Three quarters of the image are white; thousands of tiles away its mean is the same.
+    Image image;
+    image.width = image.height = 1024;
+    for (unsigned y = 0; y < 1024; ++y)
+        for (unsigned x = 0; x < 1024; ++x) {
+            const std::uint8_t v = x < 768 ? 255 : 0;
+            image.texels.insert(image.texels.end(), {v, v, v, 255});
+        }
+    for (float tile : {0.0f, 2048.0f}) {
+        Builder b;
+        Primitive p = square(0, true, 0.1);
+        p.uvs[0] = {{tile, tile}, {tile + 1, tile}, {tile, tile + 1}, {tile + 1, tile + 1}};
+        Material m = lambert(1.0f);
+        m.base_colour_texture = TextureUse{};
+        b.add(p, m).sky(1.0f);
+        b.scene.images.push_back(image);
+        b.scene.textures.push_back({});
+        expect_closed_form("tile " + std::to_string(tile), measure(b.scene, {.view = down}), 0.75, 0.005);
+    }
+}
+
 }  // namespace
 }  // namespace triad::analytic
