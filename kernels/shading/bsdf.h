@@ -130,7 +130,7 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
     b.alpha = math_square(in->roughness);
     b.smooth = b.alpha < BSDF_SMOOTH_ALPHA;
 #if BSDF_TRANSMISSION
-    float transmitter = in->ior >= 1.0f ? dielectric * in->transmission : 0.0f;
+    float transmitter = in->ior >= 1.0f && f0 < 1.0f ? dielectric * in->transmission : 0.0f;
     opaque = dielectric - transmitter;
     b.transmits = transmitter > 0.0f;
     b.solid = in->solid;

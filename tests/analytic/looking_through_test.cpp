@@ -72,5 +72,14 @@ TEST(Texture, repeats_as_well_far_from_the_origin) {
     }
 }
 
+TEST(Glass, of_an_absurd_index_is_a_mirror) {
+    for (float ior : {1e8f, 1e30f})
+        for (float roughness : {0.0f, 0.5f}) {
+            Builder b;
+            b.add(shapes::box({-1, -1, -1}, {1, 0, 1}), glass(ior, roughness)).sky(1.0f);
+            expect_closed_form("ior " + std::to_string(ior), measure(b.scene, {.view = down}), 1.0, 0.005);
+        }
+}
+
 }  // namespace
 }  // namespace triad::analytic
