@@ -94,7 +94,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         const float3 wo = -(float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
         if (hit.primitive == TRIAD_NONE) {
             if (straight && frame->transparent) {
-                alpha = 1.0f - math_saturate((throughput.x + throughput.y + throughput.z) * (1.0f / 3.0f));
+                /* weights above 1 make up for paths that ended in a surface: no clamping */
+                alpha = 1.0f - math_average(throughput) / body_scale;
                 break;
             }
             float light_pdf;
@@ -166,7 +167,13 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                 const float side = math_dot(light.direction, ng);
                 const float3 wi = frame_to_local(&around, light.direction);
                 /* the shading normal must not move light through the surface */
-                if (side * wi.z > 0.0f) {
+                int lit = side * wi.z > 0.0f;
+#if TRIAD_ENVIRONMENT_MAP
+                /* what the camera sees through the surface is alpha, however it is found (pdf 0: no map) */
+                if (straight && side < 0.0f && frame->transparent && light.distant && light.pdf > 0.0f)
+                    lit = 0;
+#endif
+                if (lit) {
                     float bsdf_pdf;
                     const float3 f = bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
                     const float weight = light.pdf > 0.0f ? power_heuristic(light.pdf, bsdf_pdf) : 1.0f;

@@ -50,6 +50,20 @@ TEST(Alpha, a_lamp_with_coverage_lights_by_its_share) {
     }
 }
 
+TEST(TransparentBackground, a_rough_wall_that_passes_everything_shows_none_of_the_environment) {
+    for (float roughness : {0.2f, 1.0f}) {
+        Material clear = glass(1.0f, roughness);
+        clear.thickness = 0;
+        Builder b;
+        b.add(square(0, true, 2), clear);
+        b.scene.environment = EnvironmentMap{8, 4, std::vector<float>(8 * 4 * 3, 1.0f)};
+        const Film film = picture(b.scene, true);
+        EXPECT_EQ(mean_of(film, 1), 0.0) << roughness;
+        EXPECT_NEAR(mean_of(film, 3), 0.0, 0.01) << roughness;
+        EXPECT_NEAR(mean_of(picture(b.scene, false), 1), 1.0, 0.01) << roughness;
+    }
+}
+
 TEST(Texture, repeats_as_well_far_from_the_origin) {
     // Three quarters of the image are white; thousands of tiles away its mean is the same.
     Image image;
