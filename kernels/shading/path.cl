@@ -53,6 +53,20 @@ TRIAD_FUNCTION Ray path_spawn_to(const Surface* s, float3 normal, const Hit* hit
     return ray;
 }
 
+#if TRIAD_TRANSMISSION
+/* What a body lets through over a distance (Beer-Lambert). */
+TRIAD_FUNCTION float3 path_transmittance(global const Material* body, float distance) {
+    return (float3)(math_exp(-body->absorption[0] * distance), math_exp(-body->absorption[1] * distance),
+                    math_exp(-body->absorption[2] * distance));
+}
+
+/* The body beyond a surface that the path passes. */
+TRIAD_FUNCTION uint path_body_beyond(uint flags, int back, uint material, uint body) {
+    if (!(flags & MATERIAL_SOLID)) return body;
+    return back ? TRIAD_NONE : material;
+}
+#endif
+
 /* The local frame's normal: the shading normal on the side of wo, bent towards wo where interpolation or a
  * normal map has turned it away, so that the mirror direction of wo stays above the surface as far as it can.
  */
@@ -78,6 +92,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
 #if TRIAD_TRANSMISSION
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
+    uint body = TRIAD_NONE; /* material of the body that the path entered last and has not left */
 #endif
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
@@ -110,13 +125,10 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         const int back = math_dot(wo, s.geometric_normal) < 0.0f;
         const float3 ng = back ? -s.geometric_normal : s.geometric_normal;
 #if TRIAD_TRANSMISSION
-        if (back && (flags & MATERIAL_SOLID)) { /* the edge ran inside the body: Beer-Lambert */
-            const float3 way = s.position - from;
-            const float distance = sqrt(math_dot(way, way));
-            throughput *= (float3)(math_exp(-material->absorption[0] * distance),
-                                   math_exp(-material->absorption[1] * distance),
-                                   math_exp(-material->absorption[2] * distance));
-        }
+        /* a body's inner side is proof of where the edge ran; else it ended on something inside the body */
+        if (back && (flags & MATERIAL_SOLID)) body = s.material;
+        if (body != TRIAD_NONE)
+            throughput *= path_transmittance(scene->materials + body, math_length(s.position - from));
         from = s.position;
 #endif
 #if TRIAD_UNLIT
@@ -177,7 +189,14 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                     float bsdf_pdf;
                     const float3 f = bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
                     const float weight = light.pdf > 0.0f ? power_heuristic(light.pdf, bsdf_pdf) : 1.0f;
-                    const float3 direct = throughput * f * light.weight * weight;
+                    float3 direct = throughput * f * light.weight * weight;
+#if TRIAD_TRANSMISSION
+                    const uint around_light =
+                        side < 0.0f ? path_body_beyond(flags, back, s.material, body) : body;
+                    if (around_light != TRIAD_NONE && !light.distant)
+                        direct *= path_transmittance(scene->materials + around_light,
+                                                     math_length(light.target - s.position));
+#endif
                     if (math_max3(direct) > 0.0f) {
                         const float3 away = side > 0.0f ? ng : -ng;
 #if TRIAD_ALPHA_TEST
@@ -200,7 +219,10 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         if (!(side * sample.wi.z > 0.0f)) break;
         throughput *= sample.weight;
 #if BSDF_TRANSMISSION
-        if (sample.event & BSDF_TRANSMIT) body_scale *= bsdf.body_scale;
+        if (sample.event & BSDF_TRANSMIT) {
+            body_scale *= bsdf.body_scale;
+            body = path_body_beyond(flags, back, s.material, body);
+        }
 #endif
         pdf = (sample.event & BSDF_DELTA) ? 0.0f : sample.pdf;
         straight = straight && (sample.event & BSDF_TRANSMIT);

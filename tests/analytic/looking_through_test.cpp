@@ -64,6 +64,60 @@ TEST(TransparentBackground, a_rough_wall_that_passes_everything_shows_none_of_th
     }
 }
 
+TEST(Body, absorbs_on_the_way_to_what_is_inside_it) {
+    // An index of 1 bends and reflects nothing: the lamp or the floor inside is seen through half a unit,
+    // c^.5.
+    Material amber = glass(1.0f);
+    amber.attenuation_distance = 1.0f;
+    amber.attenuation_colour = vec3(0.25f);
+    Builder lamp;
+    lamp.add(shapes::box({-2, -1, -2}, {2, 0.25f, 2}), amber).add(square(-0.25, true, 1), emitter(1.0f));
+    expect_closed_form("lamp", measure(lamp.scene, {.view = down}), 0.5, 1e-5);
+
+    // Both ways, to the sun and back; a directional light passes no boundary, so the sun is a sky seen
+    // through the top.
+    Builder floor;
+    floor.add(shapes::box({-200, -1, -200}, {200, 0.25f, 200}), amber)
+        .add(square(-0.25, true, 100), lambert(1.0f))
+        .sky(1.0f);
+    // Mean of c^(d / cos) over the cosine: 2 E_3(tau), tau = -ln(c) / 2 = ln 2.
+    const double tau = std::log(2.0);
+    double transmitted = 0;
+    const int n = 100000;
+    for (int i = 0; i < n; ++i) {
+        const double mu = (i + 0.5) / n;
+        transmitted += 2 * mu * std::exp(-tau / mu) / n;
+    }
+    expect_closed_form("floor", measure(floor.scene, {.view = down, .spp = 512}), 0.5 * transmitted, 1e-3);
+}
+
+TEST(Body, absorbs_the_light_of_lamps_inside_it) {
+    // A floor, and above it a lamp at height 1, in amber up to 1.5; the camera looks in at 45 degrees.
+    Material amber = glass(1.0f);
+    amber.attenuation_distance = 1.0f;
+    amber.attenuation_colour = vec3(0.5f);
+    Builder b;
+    b.add(shapes::box({-20, -1, -20}, {20, 1.5f, 20}), amber).add(square(0, true, 10), lambert(1.0f));
+    const Plan plan{.view = orthographic({0, 0, 0}, glm::normalize(dvec3(1, -1, 0)), 1e-4, 4), .spp = 256};
+    const double way = std::pow(0.5, 1.5 * std::sqrt(2.0));
+
+    Builder point = b;
+    point.scene.lights.push_back(
+        {.type = PunctualLight::Type::point, .position = {0, 1, 0}, .colour = vec3(3.0f)});
+    expect_closed_form("point", measure(point.scene, plan), way * 0.5 * 3 / pi, 1e-4);
+
+    Builder square_lamp = b;
+    square_lamp.add(square(1, false, 0.5), emitter(1.0f));
+    double irradiance = 0;
+    const int n = 400;
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) {
+            const double x = (i + 0.5) / n - 0.5, z = (k + 0.5) / n - 0.5, d2 = 1 + x * x + z * z;
+            irradiance += std::pow(0.5, std::sqrt(d2)) / (d2 * d2) / (n * n);
+        }
+    expect_closed_form("square", measure(square_lamp.scene, plan), way * irradiance / pi, 1e-4);
+}
+
 TEST(Texture, repeats_as_well_far_from_the_origin) {
     // Three quarters of the image are white; thousands of tiles away its mean is the same.
     Image image;
