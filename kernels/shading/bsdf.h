@@ -49,7 +49,7 @@ typedef struct Bsdf {
     float3 specular0, specular1; /* reflection of metal and coat: specular0 + specular1 (1 - wo.h)^5 */
     float alpha;
     float stretch;    /* ggx_stretch of wo */
-    float cap;        /* ggx_cap of wo; 1 when it transmits */
+    float cap;        /* ggx_cap of wo; 1: normals are not bounded */
     float p_specular; /* probability of sampling the microfacets and not the Lambert lobe */
     uint smooth;      /* the microfacets are one mirror: delta lobes */
 #endif
@@ -61,6 +61,7 @@ typedef struct Bsdf {
     float3 fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
     float3 transmitter;        /* its weight, energy compensation included */
     float3 tint;
+    float p_cap; /* of a transmitter: probability that the normal is drawn within the cap */
 #endif
 } Bsdf;
 
@@ -109,6 +110,14 @@ TRIAD_FUNCTION float bsdf_reflect_probability(const Bsdf* b, float3 reflected, f
     (void)b, (void)reflected, (void)transmitted;
 #endif
     return 1.0f;
+}
+#endif
+
+#if BSDF_TRANSMISSION
+/* Of the density of a transmitter's normals h, the factor that a cap changes: 1 / (z + s) without one. */
+TRIAD_FUNCTION float bsdf_cap_factor(const Bsdf* b, float z_o, uint in_cap) {
+    float bounded = in_cap ? b->p_cap / fma(b->cap, z_o, b->stretch) : 0.0f;
+    return bounded + (1.0f - b->p_cap) / (z_o + b->stretch);
 }
 #endif
 
@@ -162,8 +171,9 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
 
     b.stretch = ggx_stretch(wo, b.alpha);
     float p = math_average(fma(b.specular1, (float3)(albedo.y), b.specular0 * albedo.x));
-    uint bounded = 1u;
+    uint bounded = !b.smooth;
 #if BSDF_TRANSMISSION
+    b.p_cap = 0.0f;
     if (b.transmits) {
         bounded = 0u;
         b.fresnel1 = (coat90 - coat0) / (1.0f - f0);
@@ -180,12 +190,16 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
                     b.fresnel0 * albedo.x + b.fresnel1 * glass.x + (1.0f - b.fresnel0 - b.fresnel1) * glass.y;
             }
             b.transmitter = transmitter / kept;
+            /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
+             * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
+            if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - math_average(kept));
+            bounded = b.p_cap > 0.0f;
         }
         float3 f = bsdf_transmitter_fresnel(&b, wo.z);
         p += transmitter * math_max(math_average(f + (1.0f - f) * b.tint), BSDF_MIN_TRANSMITTER);
     }
 #endif
-    b.cap = bounded && !b.smooth ? ggx_cap(wo, b.alpha) : 1.0f;
+    b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;
     float d = math_average(b.diffuse);
     b.p_specular = p > 0.0f ? (d > 0.0f ? p / (p + d) : 1.0f) : 0.0f;
 #endif
@@ -223,17 +237,29 @@ TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, f
         float jacobian = b->solid ? eta * eta * -wi_h / l2 : 1.0f / (4.0f * wo_h);
         float masking = ggx_masking(wo.z, b->stretch, -wi.z, ggx_stretch(wi, b->alpha));
         *f += transmitted * (b->body_scale * wo_h * jacobian * d * masking);
-        *pdf += b->p_specular * (1.0f - reflect) * jacobian * ggx_normal_pdf(d, wo_h, wo.z, b->stretch);
+        /* a normal of ggx_sample within the cap */
+        float a2 = b->alpha * b->alpha;
+        uint in_cap =
+            2.0f * wo_h * h.z * a2 >= (1.0f - b->cap) * wo.z * fma(a2, h.z * h.z, fma(h.x, h.x, h.y * h.y));
+        *pdf +=
+            b->p_specular * (1.0f - reflect) * jacobian * 2.0f * d * wo_h * bsdf_cap_factor(b, wo.z, in_cap);
         return;
     }
 #endif
     float3 h = wo + wi;
     float c = 0.5f * math_length(h); /* |wo + wi| = 2 wo.h */
+    if (!(c > 0.0f)) return;         /* both in the plane, opposite */
     bsdf_microfacet(b, c, &reflected, &transmitted);
     float reflect = bsdf_reflect_probability(b, reflected, transmitted);
     if (reflect < 0.0f) return;
     float d = ggx_distribution(h, b->alpha);
     *f += reflected * (0.25f * d * ggx_masking(wo.z, b->stretch, wi.z, ggx_stretch(wi, b->alpha)));
+#if BSDF_TRANSMISSION
+    if (b->transmits) {
+        *pdf += b->p_specular * reflect * 0.5f * d * bsdf_cap_factor(b, wo.z, 1u);
+        return;
+    }
+#endif
     *pdf += b->p_specular * reflect * ggx_reflection_pdf(d, wo.z, b->stretch, b->cap);
 }
 #endif
@@ -271,7 +297,16 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, fl
     s.event = BSDF_NONE;
 #if TRIAD_SPECULAR
     if (u_lobe < b->p_specular) {
-        float3 h = b->smooth ? (float3)(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, b->cap, u);
+        float cap = b->cap;
+#if BSDF_TRANSMISSION
+        if (b->p_cap > 0.0f) {
+            uint bounded = u.y < b->p_cap;
+            u.y = bounded ? u.y / b->p_cap : (u.y - b->p_cap) / (1.0f - b->p_cap);
+            u.y = math_min(u.y, 0x1.fffffep-1f);
+            cap = bounded ? cap : 1.0f;
+        }
+#endif
+        float3 h = b->smooth ? (float3)(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, u);
         float c = b->smooth ? wo.z : math_min(math_dot(wo, h), 1.0f);
         float3 reflected, transmitted;
         bsdf_microfacet(b, c, &reflected, &transmitted);
