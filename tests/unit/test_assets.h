@@ -5,5 +5,5 @@
 
 inline std::filesystem::path test_assets() {
     if (const char* folder = std::getenv("TRIAD_TEST_ASSETS")) return folder;
-    return std::filesystem::path(__FILE__).parent_path() / "../../../shared/assets";
+    return std::filesystem::path(TRIAD_SOURCE_DIR) / "../shared/assets";
 }

@@ -1,0 +1,109 @@
+// Other people's models through the whole program: every file of these folders gives a picture, or says that
+// there is nothing to render. What the pictures show, and what looks wrong: docs/assets.md.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "../unit/temporary_folder.h"
+#include "../unit/test_assets.h"
+#include "io/io.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Outcome {
+    int exit = -1;
+    std::string output;
+};
+
+Outcome run(const std::string& arguments) {
+    Outcome outcome;
+    FILE* pipe = ::popen(("'" TRIAD_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
+    std::array<char, 4096> buffer;
+    for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        outcome.output.append(buffer.data(), n);
+    const int status = ::pclose(pipe);
+    outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+}
+
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+std::vector<fs::path> models_in(const fs::path& folder) {
+    std::vector<fs::path> models;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+        if (entry.path().extension() == ".gltf" || entry.path().extension() == ".glb")
+            models.push_back(entry.path());
+    std::sort(models.begin(), models.end());
+    return models;
+}
+
+/// What a picture without its background shows.
+struct Seen {
+    double covered = 0;          ///< share of the pixels with an alpha of at least a half
+    double least = 0, most = 0;  ///< sum of the channels over those
+    bool finite = true;
+};
+
+Seen look_at(const triad::Picture& picture) {
+    Seen seen;
+    const auto& alpha = picture.find("A")->values;
+    seen.least = INFINITY;
+    for (std::size_t i = 0; i < alpha.size(); ++i) {
+        double sum = 0;
+        for (const char* name : {"R", "G", "B"}) sum += picture.find(name)->values[i];
+        seen.finite = seen.finite && std::isfinite(sum);
+        if (alpha[i] < 0.5f) continue;
+        seen.covered += 1.0 / double(alpha.size());
+        seen.least = std::min(seen.least, sum), seen.most = std::max(seen.most, sum);
+    }
+    return seen;
+}
+
+}  // namespace
+
+TEST(Assets, every_model_renders_or_has_nothing_to_render) {
+    const fs::path assets = test_assets();
+    if (!fs::exists(assets / "core")) GTEST_SKIP() << "no assets in " << assets;
+    const TemporaryFolder folder;
+    std::set<std::string> empty;
+    std::size_t models = 0;
+    for (const char* part : {"core", "textures", "ext-lights", "scenes"})
+        for (const fs::path& model : models_in(assets / part)) {
+            SCOPED_TRACE(model.string());
+            ++models;
+            const Outcome outcome = run(
+                "render " + quoted(model) + " -o " + quoted(folder / "picture.exr") + " --json " +
+                quoted(folder / "row.json") + " --env " + quoted(assets / "env" / "venice_sunset_256.hdr") +
+                " --background transparent --size 64x64 --spp 4");
+            if (outcome.exit == 2 && outcome.output.find("nothing to render") != std::string::npos) {
+                empty.insert(model.stem().string());
+                continue;
+            }
+            EXPECT_EQ(outcome.exit, 0) << outcome.output;
+            if (outcome.exit != 0) continue;
+            const auto row = nlohmann::json::parse(std::ifstream(folder / "row.json"))["rows"][0];
+            EXPECT_EQ(row["spp"], 4);
+            EXPECT_EQ(row["not_finite"], 0);
+            EXPECT_EQ(row["saturated"], 0);
+            const Seen seen = look_at(triad::read_picture(folder / "picture.exr"));
+            EXPECT_TRUE(seen.finite);
+            EXPECT_GT(seen.covered, 0.01) << "nothing is in view";
+            // Noise alone makes lit surfaces uneven; black would be even. The one cube that is black still
+            // reflects.
+            EXPECT_GT(seen.most, 0.0) << "all black";
+            EXPECT_GT(seen.most, seen.least) << "all one colour";
+        }
+    EXPECT_GE(models, 57u);
+    EXPECT_EQ(empty, (std::set<std::string>{"00_empty_scene", "00_no_nodes"}));
+}
