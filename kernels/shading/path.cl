@@ -67,15 +67,28 @@ TRIAD_FUNCTION uint path_body_beyond(uint flags, int back, uint material, uint b
 }
 #endif
 
-/* The local frame's normal: the shading normal on the side of wo, bent towards wo where interpolation or a
- * normal map has turned it away, so that the mirror direction of wo stays above the surface as far as it can.
- */
-TRIAD_FUNCTION float3 path_shading_normal(float3 ns, float3 ng, float3 wo) {
-    const float cosine = math_dot(ns, wo);
-    const float least = 0.02f;
-    if (cosine >= least) return ns;
-    const float3 bent = normalize_or(ns + wo * (least - cosine), ng);
-    return math_dot(bent, wo) > 0.0f ? bent : ng;
+/* The local frame's normal: the shading normal on the side of wo. `mirror` is the share of the material that
+ * has microfacets alone (metal, glass): theirs is turned towards the geometric normal (on wo's side) just so
+ * far that the mirror direction of wo leaves the surface, else they would be black where a normal map or
+ * interpolation tilts it further. With N = (sqrt(1 - w), 0, sqrt(w)) and R.z = t, w is a root of 2 a w^2 - b
+ * w + c / 2 = 0: Cycles' ensure_valid_specular_reflection. */
+TRIAD_FUNCTION float3 path_shading_normal(float3 ns, float3 ng, float3 wo, float mirror) {
+    const float facing = math_dot(ns, wo), least = 0.02f;
+    float3 n = ns;
+    if (facing < least) {
+        n = normalize_or(ns + wo * (least - facing), ng);
+        if (!(math_dot(n, wo) > 0.0f)) return ng;
+    }
+    const float cosine = math_dot(n, ng), z = math_dot(wo, ng);
+    const float t = math_min(0.9f * z, 0.01f); /* never asks for more than the geometric normal gives */
+    if (mirror == 0.0f || fma(2.0f * math_dot(n, wo), cosine, -z) >= t) return n;
+    const float3 axis = normalize_or(n - ng * cosine, (float3)(0.0f));
+    const float x = math_dot(wo, axis);
+    const float a = fma(x, x, z * z), b = 2.0f * fma(z, t, a), c = math_square(t + z);
+    const float root = math_sqrt(fma(b, b, -4.0f * a * c));
+    const float w = clamp(0.25f * (b + (x < 0.0f ? root : -root)) / a, 0.0f, 1.0f);
+    const float3 turned = axis * sqrt(1.0f - w) + ng * sqrt(w);
+    return normalize_or(n + (turned - n) * mirror, ng);
 }
 
 /* Radiance and alpha along one camera ray. */
@@ -167,7 +180,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         input.transmission = s.transmission;
         input.solid = (flags & MATERIAL_SOLID) != 0u;
         input.inside = (uint)(back && (flags & MATERIAL_SOLID));
-        const float3 ns = path_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo);
+        const float mirror = fma(1.0f - s.metallic, s.transmission, s.metallic);
+        const float3 ns = path_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo, mirror);
         const ShadingFrame around = frame_make(ns);
         const float3 wo_local = frame_to_local(&around, wo);
         const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
