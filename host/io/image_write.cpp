@@ -116,6 +116,7 @@ std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half, std::siz
     }
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("DateTime", "");  // else the writer adds the time: equal pictures have equal bytes
     for (const auto& [name, value] : picture.metadata) add_attribute(spec, name, value);
     if (saturated) *saturated = count;
     return oiio::encode("openexr", spec, OIIO::TypeDesc::FLOAT, values.data());
