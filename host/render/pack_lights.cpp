@@ -7,11 +7,16 @@
 namespace triad {
 namespace {
 
-double luminance(const vec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
+/// Share of the picks that all lights with any power get alike: a weak light outshines the others where it is
+/// close, or alone in its cone, and noise grows with one over the rarity of its picks.
+constexpr double even_share = 0.2;
+
+/// What lights are weighed by: all channels alike, as the error of a picture counts them.
+double average(const vec3& c) { return (double(c.x) + c.y + c.z) / 3.0; }
 
 /// Mean of an emission texture over its whole image: a guess of what a triangle sees of it, good enough to
 /// pick lights by.
-double mean_luminance(const Scene& scene, const std::optional<TextureUse>& use) {
+double texture_average(const Scene& scene, const std::optional<TextureUse>& use) {
     if (!use) return 1.0;
     const Image& image = scene.images[scene.textures[use->texture].image];
     const std::size_t texels = std::size_t(image.width) * image.height;
@@ -26,7 +31,7 @@ double mean_luminance(const Scene& scene, const std::optional<TextureUse>& use) 
                                  : image.texels[at];
             c[k] = static_cast<float>(srgb_decode(v / top));
         }
-        sum += luminance(c);
+        sum += average(c);
     }
     return texels ? sum / static_cast<double>(texels) : 0.0;
 }
@@ -62,7 +67,7 @@ void add_triangles(const Scene& scene, Picker& picker) {
         const Material& m = scene.materials[g.material];
         if (m.emission == vec3(0.0f) || m.unlit) continue;
         if (in_tree.empty()) in_tree = drawn(packed);
-        const double radiance = luminance(m.emission) * mean_luminance(scene, m.emission_texture);
+        const double radiance = average(m.emission) * texture_average(scene, m.emission_texture);
         picker.brightest =
             std::max({picker.brightest, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
         g.first_light = static_cast<std::uint32_t>(packed.lights.size());
@@ -99,7 +104,7 @@ void add_punctual(const Scene& scene, Picker& picker) {
         copy(light.axis, l.direction);
         copy(light.colour, dvec3(l.colour));
         light.range = l.range;
-        const double intensity = luminance(l.colour);
+        const double intensity = average(l.colour);
         if (l.type == PunctualLight::Type::directional) {
             light.type = LIGHT_DIRECTIONAL;
             picker.brightest = std::max(picker.brightest, intensity / pi);
@@ -119,6 +124,15 @@ void add_punctual(const Scene& scene, Picker& picker) {
         light.cone_offset = static_cast<float>(-outer * scale);
         picker.add(light, 2.0 * pi * (1.0 - outer) * intensity);
     }
+}
+
+/// Powers with even_share of their total spread over all that are not zero.
+std::vector<double> picked_weights(std::vector<double> power) {
+    double total = 0, shining = 0;
+    for (double p : power) total += p, shining += p > 0 ? 1.0 : 0.0;
+    for (double& p : power)
+        if (p > 0) p = (1.0 - even_share) * p + even_share * total / shining;
+    return power;
 }
 
 }  // namespace
@@ -148,7 +162,7 @@ void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene
     if (e.width != 0) {
         // Flux through the disc that the scene shows to a direction; the mean radiance is in colour
         // (pack_environment).
-        const double mean = 0.2126 * e.colour[0] + 0.7152 * e.colour[1] + 0.0722 * e.colour[2];
+        const double mean = average({e.colour[0], e.colour[1], e.colour[2]});
         const double radius = packed.bounds.radius();
         picker.brightest = std::max(picker.brightest, mean);
         if (mean > 0) {
@@ -161,7 +175,7 @@ void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene
         picker.brightest =
             std::max({picker.brightest, double(e.colour[0]), double(e.colour[1]), double(e.colour[2])});
     }
-    packed.light_cdf = integer_cdf(picker.power);
+    packed.light_cdf = integer_cdf(picked_weights(picker.power));
     bool any = false;
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
         packed.lights[i].pick =

@@ -82,10 +82,10 @@ TEST(Assets, every_model_renders_or_has_nothing_to_render) {
         for (const fs::path& model : models_in(assets / part)) {
             SCOPED_TRACE(model.string());
             ++models;
-            const Outcome outcome = run(
-                "render " + quoted(model) + " -o " + quoted(folder / "picture.exr") + " --json " +
-                quoted(folder / "row.json") + " --env " + quoted(assets / "env" / "venice_sunset_256.hdr") +
-                " --background transparent --size 64x64 --spp 4");
+            const Outcome outcome = run("render " + quoted(model) + " -o " + quoted(folder / "picture.exr") +
+                                        " --json " + quoted(folder / "row.json") + " --env " +
+                                        quoted(assets / "env" / "venice_sunset_256.hdr") +
+                                        " --background transparent --size 64x64 --spp 4");
             if (outcome.exit == 2 && outcome.output.find("nothing to render") != std::string::npos) {
                 empty.insert(model.stem().string());
                 continue;

@@ -1,0 +1,118 @@
+// Whole pictures that must be equal, and some that must not, by the statistics of measure/statistics.h: seeds
+// are fixed, and equal pictures would be called different once in a million seeds.
+#include <gtest/gtest.h>
+
+#include "../analytic/analytic_scene.h"
+#include "kernels/types.h"
+#include "measure/statistics.h"
+
+namespace triad::analytic {
+namespace {
+
+constexpr unsigned size = 48, batches = 12, spp = 16;
+
+/// A room corner with a glossy block, under a sky and a square light cut into cells x cells.
+Scene lit_room(unsigned cells, bool sky_as_map) {
+    Builder b;
+    Material wall;
+    wall.metallic = 0.0f, wall.roughness = 0.6f;
+    wall.base_colour = {0.7f, 0.6f, 0.4f, 1.0f};
+    Material metal;
+    metal.roughness = 0.4f;
+    b.add(shapes::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), wall);
+    b.add(shapes::quad({-2, 0, -1}, {4, 0, 0}, {0, 3, 0}), wall);
+    b.add(shapes::box({-0.5f, 0, -0.5f}, {0.3f, 0.8f, 0.3f}), metal);
+    b.add(shapes::quad({-0.6f, 2, -0.5f}, {1, 0, 0}, {0, 0, 1}, cells, cells), emitter(4.0f));
+    const float radiance = 0.25f;
+    if (sky_as_map)
+        b.scene.environment = EnvironmentMap{16, 8, std::vector<float>(16 * 8 * 3, radiance)};
+    else
+        b.sky(radiance);
+    return b.scene;
+}
+
+std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0) {
+    validate(scene);
+    std::vector<Batch> result;
+    for (unsigned k = 0; k < batches; ++k) {
+        RenderSettings settings;
+        settings.width = settings.height = size;
+        settings.bins_x = settings.bins_y = bins;
+        settings.seed = first_seed + k;
+        settings.max_depth = max_depth;
+        settings.view = look_at({0.8, 1.3, 3.2}, {0, 0.6, 0}, 0.8, 1.0);
+        Renderer renderer(test_device(), scene, settings);
+        renderer.render({0, spp}, [](const Progress&) { return true; });
+        const Film film = renderer.film();
+        EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);
+        Batch batch{size, size, std::vector<float>(std::size_t(size) * size * 3)};
+        for (std::size_t p = 0; p < film.pixels(); ++p) {
+            const auto mean = pixel_mean(film, p);
+            for (int c = 0; c < 3; ++c) batch.rgb[p * 3 + c] = float(mean[c]);
+        }
+        result.push_back(std::move(batch));
+    }
+    return result;
+}
+
+const std::vector<Batch>& plain() {
+    static const std::vector<Batch> batches_of_it = render(lit_room(1, false), 100);
+    return batches_of_it;
+}
+
+void expect_agreement(const std::vector<Batch>& other) {
+    const Agreement found = compare_pictures(plain(), other);
+    EXPECT_TRUE(found.agree) << found.sentence();
+}
+
+TEST(Agreement, other_seeds_show_the_same_picture) { expect_agreement(render(lit_room(1, false), 200)); }
+
+TEST(Agreement, a_light_in_one_piece_shines_as_one_in_thirty_two) {
+    expect_agreement(render(lit_room(4, false), 300));
+}
+
+TEST(Agreement, an_even_sky_shines_as_a_map_of_it_that_is_sampled) {
+    expect_agreement(render(lit_room(1, true), 400));
+}
+
+TEST(Agreement, bins_change_no_mean) { expect_agreement(render(lit_room(1, false), 500, 2)); }
+
+TEST(Agreement, one_tile_that_is_five_percent_brighter_is_found) {
+    auto biased = render(lit_room(1, false), 600);
+    for (Batch& b : biased)
+        for (unsigned y = 32; y < 48; ++y)
+            for (unsigned x = 16; x < 32; ++x)
+                for (int c = 0; c < 3; ++c) b.rgb[(std::size_t(y) * size + x) * 3 + c] *= 1.05f;
+    const Agreement found = compare_pictures(plain(), biased);
+    EXPECT_FALSE(found.agree) << found.sentence();
+    EXPECT_EQ(found.worst_place.substr(0, 9), "tile 1, 2") << found.sentence();
+}
+
+TEST(Agreement, paths_without_their_tail_are_darker) {
+    const Agreement found = compare_pictures(plain(), render(lit_room(1, false), 700, 1, 3));
+    EXPECT_FALSE(found.agree) << found.sentence();
+    EXPECT_LT(found.worst.mean_b, found.worst.mean_a);
+}
+
+TEST(Agreement, a_weak_light_alone_in_its_cone_is_no_noise) {
+    // A narrow blue spot beside a lamp a thousand times its power that shines elsewhere.
+    Builder b;
+    b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), lambert(0.5f));
+    b.scene.lights.push_back({.position = {0, -1, 0}, .colour = vec3(100.0f)});
+    b.scene.lights.push_back({.type = PunctualLight::Type::spot,
+                              .position = {0, 4, 0},
+                              .direction = {0, -1, 0},
+                              .colour = {0, 0, 10},
+                              .inner_cone = 0.09f,
+                              .outer_cone = 0.1f});
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.2, 2);
+    validate(b.scene);
+    Renderer renderer(test_device(), b.scene, settings);
+    renderer.render({0, 256}, [](const Progress&) { return true; });
+    EXPECT_LT(estimated_relmse(renderer.film()), 0.05);
+}
+
+}  // namespace
+}  // namespace triad::analytic
