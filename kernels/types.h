@@ -75,7 +75,8 @@ typedef struct Hit {
     float t, u, v;
     uint primitive;
     uint instance;
-    uint unused[3];
+    uint block; /* 4 * the TriangleBlock that holds it + its lane: where its corners are */
+    uint unused[2];
 } Hit;
 TRIAD_SIZE(Hit, 32);
 
@@ -89,17 +90,17 @@ typedef struct Triangle {
 TRIAD_SIZE(Triangle, 16);
 
 /* One glTF primitive. The attribute members are the index of its first vertex in that attribute's array, or
- * TRIAD_NONE. Positions and directions of flattened geometry are in rebased world space, of instanced in object space. */
+ * TRIAD_NONE. Directions of flattened geometry are in rebased world space, of instanced in object space; the positions
+ * are in the TriangleBlocks. */
 typedef struct Geometry {
     uint first_triangle;
     uint material;
-    uint position;    /* float[3] per vertex */
     uint normal;      /* float[3], unit; TRIAD_NONE: flat */
     uint tangent;     /* float[4], w = handedness */
     uint uv[2];       /* float[2] */
     uint colour;      /* float[4], linear */
     uint first_light; /* light of triangle first_triangle when the material emits (one light per triangle), else NONE */
-    uint unused[3];
+    uint unused[4];
 } Geometry;
 TRIAD_SIZE(Geometry, 48);
 
@@ -202,6 +203,17 @@ typedef struct Light {
 } Light;
 TRIAD_SIZE(Light, 96);
 
+/* The shape of a tree over n intervals of [0, 2^32 - 1), searched eight bounds at a time. Level k holds every
+ * 8^(levels - 1 - k)-th bound, in groups of eight, from first[k] on; the last level holds them all, and the final bound
+ * 2^32 - 1 after them. What is over is filled with 2^32 - 1. */
+#define CDF_LEVELS 8
+typedef struct CdfShape {
+    uint levels;
+    uint size; /* of one tree, in uints: a multiple of 8 */
+    uint first[CDF_LEVELS];
+} CdfShape;
+TRIAD_SIZE(CdfShape, 40);
+
 /* The environment: radiance = strength * texel, bilinear. World y is up before the rotation about it.
  * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere. */
 typedef struct Environment {
@@ -209,10 +221,11 @@ typedef struct Environment {
     uint light; /* its Light, or TRIAD_NONE when it emits nothing */
     float strength;
     float rotate_cos, rotate_sin; /* map direction = (c x + s z, y, -s x + c z) of world direction */
+    CdfShape rows, columns; /* one tree over rows, one tree per row over columns */
     float unused[2];
     float colour[4]; /* used when width is 0 */
 } Environment;
-TRIAD_SIZE(Environment, 48);
+TRIAD_SIZE(Environment, 128);
 
 /* ---- Camera and film -------------------------------------------------------------------------------------------------- */
 
@@ -247,9 +260,10 @@ typedef struct Frame {
     uint light_count;
     float quanta; /* fixed-point units per unit of radiance: a power of two */
     uint root;    /* node of the world's tree */
-    uint unused[4];
+    CdfShape lights; /* the tree that lights are picked by */
+    uint unused[2];
 } Frame;
-TRIAD_SIZE(Frame, 192);
+TRIAD_SIZE(Frame, 304);
 
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4

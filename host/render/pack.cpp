@@ -19,7 +19,8 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings) {
     pack_geometry(scene, settings, packed);
     pack_materials(scene, packed);
     pack_environment(scene, settings, packed);
-    pack_lights(scene, settings, packed);
+    pack_lights(scene, packed);
+    packed.flattened = {};
     return packed;
 }
 
@@ -50,6 +51,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.light_count = static_cast<std::uint32_t>(packed.lights.size());
     frame.quanta = std::ldexp(1.0f, packed.quanta_log2);
     frame.root = packed.root;
+    frame.lights = packed.light_shape;
     return frame;
 }
 
@@ -70,7 +72,6 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
     add(packed.instance_table);
     add(packed.triangles);
     add(packed.geometries);
-    add(packed.positions);
     add(packed.normals);
     add(packed.tangents);
     add(packed.uvs);

@@ -26,7 +26,8 @@ struct PackedScene {
     std::vector<dev::Instance> instance_table;
     std::vector<dev::Triangle> triangles;
     std::vector<dev::Geometry> geometries;
-    std::vector<float> positions, normals, tangents, uvs, colours;
+    std::vector<BvhTriangle> flattened;  ///< of the world's tree, by rising primitive; for the lights
+    std::vector<float> normals, tangents, uvs, colours;
     std::vector<dev::Material> materials;
     std::vector<dev::TextureUse> texture_uses;
     std::vector<dev::Texture> textures;
@@ -35,6 +36,7 @@ struct PackedScene {
     std::vector<std::uint32_t> light_cdf;
     std::vector<float> env_texels, env_cosines;
     std::vector<std::uint32_t> env_rows, env_columns;
+    dev::CdfShape light_shape{};
     dev::Environment environment{};
 };
 
@@ -57,13 +59,18 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
 /// of weight zero has an empty interval. All weights zero: every interval but the last is empty.
 std::vector<std::uint32_t> integer_cdf(std::span<const double> weights);
 
+/// The layout of a tree over n intervals; throws Error(memory) when n is beyond 8^CDF_LEVELS.
+dev::CdfShape cdf_shape(std::size_t n);
+/// Writes the tree of integer_cdf()'s bounds to out[0, shape.size).
+void write_cdf_tree(const dev::CdfShape& shape, std::span<const std::uint32_t> bounds, std::uint32_t* out);
+
 /// The sRGB transfer function's inverse (IEC 61966-2-1).
 double srgb_decode(double encoded);
 
 // Parts of pack(), one file each.
 void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_materials(const Scene& scene, PackedScene& packed);
-void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+void pack_lights(const Scene& scene, PackedScene& packed);
 void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace triad

@@ -20,7 +20,8 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     const std::size_t w = map.width, h = map.height;
     e.width = map.width;
     e.height = map.height;
-    packed.env_texels = map.rgb;
+    e.rows = cdf_shape(h);
+    e.columns = cdf_shape(w);
     for (std::size_t y = 0; y <= h; ++y)
         packed.env_cosines.push_back(
             static_cast<float>(std::cos(pi * static_cast<double>(y) / static_cast<double>(h))));
@@ -29,7 +30,8 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     // that every direction with light can be drawn, times its solid angle.
     std::vector<double> luminance(w * h), across(w * h), row_weight(h);
     dvec3 mean(0.0);
-    packed.env_columns.resize(h * (w + 1));
+    packed.env_columns.resize(h * e.columns.size);
+    packed.env_texels.resize(h * w * 4);
     parallel_for(h, 16, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
             for (std::size_t x = 0; x < w; ++x) {
@@ -58,11 +60,21 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
             }
             row_weight[y] = sum * solid_angle(y);
             const std::vector<std::uint32_t> cdf = integer_cdf(weights);
-            std::copy(cdf.begin(), cdf.end(),
-                      packed.env_columns.begin() + static_cast<std::ptrdiff_t>(y * (w + 1)));
+            write_cdf_tree(e.columns, cdf, packed.env_columns.data() + y * e.columns.size);
+            for (std::size_t x = 0; x < w; ++x) {
+                float* texel = packed.env_texels.data() + (y * w + x) * 4;
+                std::copy_n(map.rgb.data() + (y * w + x) * 3, 3, texel);
+                texel[3] = static_cast<float>((cdf[x + 1] - cdf[x]) / 4294967296.0 / (solid_angle(y)));
+            }
         }
     });
-    packed.env_rows = integer_cdf(row_weight);
+    const std::vector<std::uint32_t> rows = integer_cdf(row_weight);
+    packed.env_rows.resize(e.rows.size);
+    write_cdf_tree(e.rows, rows, packed.env_rows.data());
+    for (std::size_t y = 0; y < h; ++y)
+        for (std::size_t x = 0; x < w; ++x)
+            packed.env_texels[(y * w + x) * 4 + 3] *=
+                static_cast<float>((rows[y + 1] - rows[y]) / 4294967296.0);
     for (std::size_t y = 0; y < h; ++y)
         for (std::size_t x = 0; x < w; ++x) {
             const float* t = map.rgb.data() + (y * w + x) * 3;

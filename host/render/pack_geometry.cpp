@@ -66,14 +66,15 @@ class GeometryPacker {
         dev::Geometry g{};
         g.first_triangle = index32(out_.triangles.size());
         g.material = static_cast<std::uint32_t>(p.material);
-        g.position = index32(out_.positions.size() / 3);
         g.normal = p.normals.empty() ? TRIAD_NONE : index32(out_.normals.size() / 3);
         g.tangent = p.tangents.empty() ? TRIAD_NONE : index32(out_.tangents.size() / 4);
         g.uv[0] = shared.uv[0], g.uv[1] = shared.uv[1];
         g.colour = shared.colour;
         g.first_light = TRIAD_NONE;
 
-        for (const vec3& v : p.positions) append(out_.positions, vec3(transform_point(m, dvec3(v))));
+        std::vector<vec3> position;
+        position.reserve(p.positions.size());
+        for (const vec3& v : p.positions) position.push_back(vec3(transform_point(m, dvec3(v))));
         const dmat3 normal_matrix = glm::transpose(glm::inverse(linear));
         for (const vec3& n : p.normals) append(out_.normals, vec3(glm::normalize(normal_matrix * dvec3(n))));
         for (const vec4& t : p.tangents) {
@@ -82,12 +83,11 @@ class GeometryPacker {
         }
         const Material& material = scene_.materials[p.material];
         const std::uint32_t geometry = index32(out_.geometries.size());
-        const float* position = out_.positions.data() + std::size_t(g.position) * 3;
         for (const uvec3& t : p.triangles) {
             // Mirroring turns the winding around; swapping two corners keeps the front the front.
             const std::uint32_t corner[3] = {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z};
             BvhTriangle b;
-            for (int c = 0; c < 3; ++c) b.corner[c] = glm::make_vec3(position + std::size_t(corner[c]) * 3);
+            for (int c = 0; c < 3; ++c) b.corner[c] = position[corner[c]];
             b.primitive = index32(out_.triangles.size());
             b.opaque = material.alpha_mode == AlphaMode::opaque;
             tree.push_back(b);
@@ -196,6 +196,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
         throw Error(Exit::scene,
                     "There is nothing to render in " + scene.name + ": its scene has no triangles.");
     packed.root = build_bvh(flat, boxes, std::max(largest(reach.lo), largest(reach.hi)), packed.bvh);
+    packed.flattened = std::move(flat);
     detail("packed " + std::to_string(packed.triangles.size()) + " triangles in " +
            std::to_string(packed.geometries.size()) + " geometries, " + std::to_string(boxes.size()) +
            " instances");

@@ -74,11 +74,10 @@ void add_triangles(const Scene& scene, Picker& picker) {
         const std::size_t geometry = static_cast<std::size_t>(&g - packed.geometries.data());
         for (std::size_t i = g.first_triangle;
              i < packed.triangles.size() && packed.triangles[i].geometry == geometry; ++i) {
-            const dev::Triangle& t = packed.triangles[i];
-            auto corner = [&](int c) {
-                return dvec3(
-                    glm::make_vec3(packed.positions.data() + 3 * (std::size_t(g.position) + t.vertex[c])));
-            };
+            const BvhTriangle& t =
+                *std::lower_bound(packed.flattened.begin(), packed.flattened.end(), i,
+                                  [](const BvhTriangle& b, std::size_t p) { return b.primitive < p; });
+            auto corner = [&](int c) { return dvec3(t.corner[c]); };
             const dvec3 e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);
             dev::Light light{};
             light.type = LIGHT_TRIANGLE;
@@ -137,24 +136,7 @@ std::vector<double> picked_weights(std::vector<double> power) {
 
 }  // namespace
 
-std::vector<std::uint32_t> integer_cdf(std::span<const double> weights) {
-    double total = 0;
-    for (double w : weights) total += w;
-    std::vector<std::uint32_t> cdf(weights.size() + 1, 0);
-    double sum = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        sum += weights[i];
-        cdf[i + 1] =
-            total > 0 ? static_cast<std::uint32_t>(std::min(sum / total, 1.0) * 4294967295.0 + 0.5) : 0u;
-    }
-    // Rounding must not give an interval to trailing entries of weight zero.
-    std::size_t last = weights.size();
-    while (last > 1 && total > 0 && weights[last - 1] == 0.0) --last;
-    for (std::size_t i = last; i <= weights.size(); ++i) cdf[i] = 0xffffffffu;
-    return cdf;
-}
-
-void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+void pack_lights(const Scene& scene, PackedScene& packed) {
     Picker picker{packed, {}, 0.0};
     add_triangles(scene, picker);
     add_punctual(scene, picker);
@@ -175,11 +157,13 @@ void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene
         picker.brightest =
             std::max({picker.brightest, double(e.colour[0]), double(e.colour[1]), double(e.colour[2])});
     }
-    packed.light_cdf = integer_cdf(picked_weights(picker.power));
+    const std::vector<std::uint32_t> cdf = integer_cdf(picked_weights(picker.power));
+    packed.light_shape = cdf_shape(picker.power.size());
+    packed.light_cdf.resize(packed.light_shape.size);
+    write_cdf_tree(packed.light_shape, cdf, packed.light_cdf.data());
     bool any = false;
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
-        packed.lights[i].pick =
-            static_cast<float>((packed.light_cdf[i + 1] - packed.light_cdf[i]) / 4294967296.0);
+        packed.lights[i].pick = static_cast<float>((cdf[i + 1] - cdf[i]) / 4294967296.0);
         any |= picker.power[i] > 0;
     }
     if (!any) {  // a scene whose lights have no power is black: nothing to sample
@@ -193,7 +177,6 @@ void pack_lights(const Scene& scene, const RenderSettings& settings, PackedScene
     // rounding is far below float. It depends on scene and settings alone, so that partial films merge.
     const double brightest = picker.brightest > 0 ? picker.brightest : 1.0;
     packed.quanta_log2 = std::clamp(34 - static_cast<int>(std::ceil(std::log2(brightest))), -60, 60);
-    (void)settings;
 }
 
 }  // namespace triad

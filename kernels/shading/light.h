@@ -101,7 +101,7 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSamp
  * arrives. */
 TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u, LightSample* s) {
     float unused;
-    const uint index = cdf_find(scene->light_cdf, scene->frame->light_count, pick, &unused);
+    const uint index = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
     const Light light = scene->lights[index];
 #if TRIAD_TRIANGLE_LIGHTS
     if (light.type == LIGHT_TRIANGLE)
@@ -116,9 +116,10 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
         const Environment e = scene->frame->environment;
         float2 uv;
         float pdf;
-        s->direction = environment_sample(scene, &e, u, &uv, &pdf);
+        s->direction = environment_sample(scene, &e, u, &uv);
+        const float3 radiance = environment_lookup(scene, &e, uv, &pdf);
         s->pdf = pdf * light.pick;
-        s->weight = environment_lookup(scene, &e, uv) * (1.0f / s->pdf);
+        s->weight = radiance * (1.0f / s->pdf);
         s->distant = 1;
         return s->pdf > 0.0f;
     }

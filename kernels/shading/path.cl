@@ -132,7 +132,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
             break;
         }
 
-        const Surface s = surface_make(scene, hit.primitive, hit.instance, hit.u, hit.v);
+        const Surface s = surface_make(scene, &hit);
         global const Material* material = scene->materials + s.material;
         const uint flags = material->flags;
         const int back = math_dot(wo, s.geometric_normal) < 0.0f;
@@ -397,7 +397,7 @@ kernel void trace_features(SCENE_PARAMETERS, global float* albedos, global float
 #endif
         const Hit hit = traverse_closest(&traversal, ray);
         if (hit.primitive == TRIAD_NONE) continue;
-        const Surface s = surface_make(&scene, hit.primitive, hit.instance, hit.u, hit.v);
+        const Surface s = surface_make(&scene, &hit);
         const float3 wi = (float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
         albedo_sum += s.base_colour;
         normal_sum += math_dot(wi, s.geometric_normal) > 0.0f ? -s.shading_normal : s.shading_normal;

@@ -91,15 +91,23 @@ TRIAD_FUNCTION float3 surface_normal_map(const Scene* scene, const Geometry* g, 
 }
 #endif
 
-TRIAD_FUNCTION Surface surface_make(const Scene* scene, uint primitive, uint instance, float u, float v) {
+/* Corner c of the hit triangle, from the block that the walk has just read. */
+TRIAD_FUNCTION float3 surface_corner(const Scene* scene, uint block, uint c) {
+    global const float* p = &scene->blocks[block >> 2].vertex[3u * c][block & 3u];
+    return (float3)(p[0], p[4], p[8]);
+}
+
+TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
+    const float u = hit->u, v = hit->v;
+    const uint instance = hit->instance;
     Surface s;
-    const Triangle t = scene->triangles[primitive];
+    const Triangle t = scene->triangles[hit->primitive];
     const Geometry g = scene->geometries[t.geometry];
     s.geometry = t.geometry;
     s.material = g.material;
-    float3 p0 = load3(scene->positions, g.position + t.vertex[0]);
-    float3 p1 = load3(scene->positions, g.position + t.vertex[1]);
-    float3 p2 = load3(scene->positions, g.position + t.vertex[2]);
+    float3 p0 = surface_corner(scene, hit->block, 0u);
+    float3 p1 = surface_corner(scene, hit->block, 1u);
+    float3 p2 = surface_corner(scene, hit->block, 2u);
     float reach = 0.0f; /* largest coordinate that takes part in computing the position */
     float mirrored = 1.0f;
 #if TRIAD_INSTANCES

@@ -134,6 +134,7 @@ TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const
         best->v = v[lane];
         best->primitive = primitive;
         best->instance = instance;
+        best->block = (leaf & BVH_INDEX) * 4u + lane;
     } while (mask != 0u);
     return 0;
 }
@@ -221,7 +222,7 @@ TRIAD_FUNCTION Hit traverse_closest(const Traversal* scene, Ray ray) {
     best.t = ray.t_max;
     best.u = best.v = 0.0f;
     best.primitive = best.instance = TRIAD_NONE;
-    best.unused[0] = best.unused[1] = best.unused[2] = 0u;
+    best.block = best.unused[0] = best.unused[1] = 0u;
     traversal_walk(scene, &ray, &best, 0);
     return best;
 }
