@@ -44,8 +44,9 @@ TRIAD_SIZE(BvhNode, 256);
 typedef struct TriangleBlock {
     float vertex[9][4];
     uint primitive[4];
+    uint geometry[4]; /* of the primitive: a hit needs no further array to know its material */
 } TriangleBlock;
-TRIAD_SIZE(TriangleBlock, 160);
+TRIAD_SIZE(TriangleBlock, 176);
 
 /* A mesh placed in the world. Instance 0 is the world itself (identity): flattened geometry belongs to it.
  * Matrices are 3x4, row-major, between object space and rebased world space. */
@@ -199,7 +200,7 @@ typedef struct Light {
     float axis[3]; /* unit; TRIANGLE: normal of the front; SPOT, DIRECTIONAL: where the light goes */
     uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material */
     float colour[3];
-    uint unused;
+    float area_per_pick; /* TRIANGLE: area / pick */
 } Light;
 TRIAD_SIZE(Light, 96);
 
@@ -214,6 +215,9 @@ typedef struct CdfShape {
 } CdfShape;
 TRIAD_SIZE(CdfShape, 40);
 
+#define ENVIRONMENT_FLOAT 0u /* float[4] per texel */
+#define ENVIRONMENT_RGBE 1u  /* one uint per texel: 8-bit R, G, B from the low byte, times 2^(top byte - 127) */
+
 /* The environment: radiance = strength * texel, bilinear. World y is up before the rotation about it.
  * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere. */
 typedef struct Environment {
@@ -221,11 +225,13 @@ typedef struct Environment {
     uint light; /* its Light, or TRIAD_NONE when it emits nothing */
     float strength;
     float rotate_cos, rotate_sin; /* map direction = (c x + s z, y, -s x + c z) of world direction */
-    CdfShape rows, columns; /* one tree over rows, one tree per row over columns */
-    float unused[2];
-    float colour[4]; /* used when width is 0 */
+    CdfShape rows, columns; /* one tree over rows of cells, one tree per row over columns */
+    uint cells[2];          /* the grid that directions are drawn from: columns and rows */
+    float colour[4];        /* used when width is 0 */
+    uint format;
+    uint unused[3];
 } Environment;
-TRIAD_SIZE(Environment, 128);
+TRIAD_SIZE(Environment, 144);
 
 /* ---- Camera and film -------------------------------------------------------------------------------------------------- */
 
@@ -263,7 +269,7 @@ typedef struct Frame {
     CdfShape lights; /* the tree that lights are picked by */
     uint unused[2];
 } Frame;
-TRIAD_SIZE(Frame, 304);
+TRIAD_SIZE(Frame, 320);
 
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4

@@ -100,6 +100,7 @@ class Emitter {
             for (int c = 0; c < 3; ++c)
                 for (int a = 0; a < 3; ++a) block.vertex[c * 3 + a][lane] = t.corner[c][a];
             block.primitive[lane] = t.primitive;
+            block.geometry[lane] = t.geometry;
             opaque = opaque && t.opaque;
         }
         pool_.blocks.push_back(block);

@@ -22,7 +22,8 @@ struct BvhPool {
 struct BvhTriangle {
     vec3 corner[3];
     std::uint32_t primitive;
-    bool opaque = false;  ///< true: rays that hit it never ask for its coverage (alpha)
+    bool opaque = false;         ///< true: rays that hit it never ask for its coverage (alpha)
+    std::uint32_t geometry = 0;  ///< index into the scene's Geometry array, carried along
 };
 
 /// A box of the top level that stands for an instance.

@@ -89,6 +89,7 @@ class GeometryPacker {
             BvhTriangle b;
             for (int c = 0; c < 3; ++c) b.corner[c] = position[corner[c]];
             b.primitive = index32(out_.triangles.size());
+            b.geometry = geometry;
             b.opaque = material.alpha_mode == AlphaMode::opaque;
             tree.push_back(b);
             out_.triangles.push_back({{corner[0], corner[1], corner[2]}, geometry});

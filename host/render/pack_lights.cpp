@@ -164,6 +164,8 @@ void pack_lights(const Scene& scene, PackedScene& packed) {
     bool any = false;
     for (std::size_t i = 0; i < packed.lights.size(); ++i) {
         packed.lights[i].pick = static_cast<float>((cdf[i + 1] - cdf[i]) / 4294967296.0);
+        packed.lights[i].area_per_pick =
+            packed.lights[i].pick > 0 ? packed.lights[i].area / packed.lights[i].pick : 3e38f;
         any |= picker.power[i] > 0;
     }
     if (!any) {  // a scene whose lights have no power is black: nothing to sample

@@ -12,14 +12,16 @@ typedef struct LightSample {
     float3 target;    /* point on the light, when `distant` is 0 */
     float3
         weight; /* incident radiance / pdf (delta lights: irradiance per cosine / probability of the pick) */
-    float pdf;  /* solid angle, the pick included; 0: a delta light, which no other sampling finds */
+    float inverse_pdf; /* of the solid angle, the pick included; 0: a delta light, which no other sampling
+                          finds */
     int distant;
+    float2 uv; /* of a map: weight and inverse_pdf are still to be looked up, by light_complete() */
 } LightSample;
 
-/* Density in solid angle, seen from p, with which light_sample draws the point at distance^2 on a triangle
- * light. `cosine` is the absolute cosine at the light. */
-TRIAD_FUNCTION float light_triangle_pdf(const Light* light, float distance2, float cosine) {
-    return light->pick * distance2 / (light->area * cosine);
+/* 1 / density in solid angle, seen from a point at `distance2` (squared), with which light_sample draws a
+ * point of a triangle light. `cosine` is the absolute cosine at the light. */
+TRIAD_FUNCTION float light_triangle_inverse_pdf(const Light* light, float inverse_distance2, float cosine) {
+    return light->area_per_pick * cosine * inverse_distance2;
 }
 
 #if TRIAD_TRIANGLE_LIGHTS
@@ -31,14 +33,14 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
     float3 q = (float3)(light->position[0], light->position[1], light->position[2]) + e1 * b.x + e2 * b.y;
     float3 n = (float3)(light->axis[0], light->axis[1], light->axis[2]);
     const float3 d = q - p;
-    s->direction = normalize_or(d, (float3)(0.0f));
+    const float inverse_distance2 = 1.0f / math_dot(d, d);
+    s->direction = d * sqrt(inverse_distance2);
     float cosine = -math_dot(n, s->direction);
     if (cosine < 0.0f && (light->flags & MATERIAL_DOUBLE_SIDED)) {
         cosine = -cosine;
         n = -n;
     }
-    const float distance2 = math_dot(d, d);
-    if (!(cosine > 0.0f) || !(distance2 > 0.0f)) return 0;
+    if (!(cosine > 0.0f) || !math_is_finite(inverse_distance2)) return 0;
     float3 radiance = (float3)(light->colour[0], light->colour[1], light->colour[2]);
 #if TRIAD_TEXTURES
     const Triangle t = scene->triangles[light->primitive];
@@ -55,8 +57,8 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
     /* The shadow ray ends short of the light, so that no ray asks for the coverage of the light itself. */
     radiance *= surface_coverage(scene, light->primitive, b.x, b.y);
 #endif
-    s->pdf = light_triangle_pdf(light, distance2, cosine);
-    s->weight = radiance * (light->area * cosine / (distance2 * light->pick));
+    s->inverse_pdf = light_triangle_inverse_pdf(light, inverse_distance2, cosine);
+    s->weight = radiance * s->inverse_pdf;
     /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */
     s->target = q + n * (32.0f * 0x1.0p-23f * max_abs3(q));
     s->distant = 0;
@@ -69,7 +71,7 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
 TRIAD_FUNCTION int light_sample_punctual(const Light* light, float3 p, LightSample* s) {
     const float3 colour = (float3)(light->colour[0], light->colour[1], light->colour[2]);
     const float3 axis = (float3)(light->axis[0], light->axis[1], light->axis[2]);
-    s->pdf = 0.0f;
+    s->inverse_pdf = 0.0f;
     if (light->type == LIGHT_DIRECTIONAL) {
         s->direction = -axis;
         s->weight = colour * (1.0f / light->pick);
@@ -114,24 +116,33 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
 #if TRIAD_ENVIRONMENT_MAP
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
-        float2 uv;
-        float pdf;
-        s->direction = environment_sample(scene, &e, u, &uv);
-        const float3 radiance = environment_lookup(scene, &e, uv, &pdf);
-        s->pdf = pdf * light.pick;
-        s->weight = radiance * (1.0f / s->pdf);
+        s->direction = environment_sample(scene, &e, u, &s->uv);
+        s->inverse_pdf = light.pick;
         s->distant = 1;
-        return s->pdf > 0.0f;
+        return 1;
     }
 #endif
     return 0;
 }
 
-/* Power heuristic with exponent 2 for a sample of density p against one of density q (Veach 1997, eq. 9.12);
- * the form survives densities whose squares overflow. q infinite or p 0: weight 0. */
-TRIAD_FUNCTION float power_heuristic(float p, float q) {
-    const float r = q / p;
-    return 1.0f / fma(r, r, 1.0f);
+/* The second half of light_sample, for directions that matter: maps are looked up here. */
+TRIAD_FUNCTION int light_complete(const Scene* scene, LightSample* s) {
+#if TRIAD_ENVIRONMENT_MAP
+    if (s->distant && s->inverse_pdf > 0.0f) {
+        const Environment e = scene->frame->environment;
+        const float pdf = environment_pdf(scene, &e, s->uv) * s->inverse_pdf;
+        if (!(pdf > 0.0f)) return 0;
+        s->inverse_pdf = 1.0f / pdf;
+        s->weight = environment_lookup(scene, &e, s->uv) * s->inverse_pdf;
+    }
+#endif
+    return 1;
+}
+
+/* Power heuristic with exponent 2 (Veach 1997, eq. 9.12) of a sample, from the density that the other
+ * sampling has there over its own; the form survives densities whose squares overflow. */
+TRIAD_FUNCTION float power_heuristic(float other_over_own) {
+    return 1.0f / fma(other_over_own, other_over_own, 1.0f);
 }
 
 #endif

@@ -13,7 +13,7 @@
 #include "traversal/traverse.h"
 
 /* Paths of this many edges and more meet Russian roulette. */
-#define ROULETTE_FROM 4u
+#define ROULETTE_FROM 3u
 /* From here on roulette never lets a path survive for certain, so that none is endless (a ray caught in clear
  * glass). */
 #define ROULETTE_ALWAYS_FROM 64u
@@ -128,7 +128,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
             }
             float light_pdf;
             const float3 sky = environment_radiance(scene, -wo, &light_pdf);
-            radiance += throughput * sky * (pdf > 0.0f ? power_heuristic(pdf, light_pdf) : 1.0f);
+            radiance += throughput * sky * (pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f);
             break;
         }
 
@@ -158,8 +158,9 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
             if (pdf > 0.0f) {
                 const Light light =
                     scene->lights[first_light + hit.primitive - scene->geometries[s.geometry].first_triangle];
-                const float light_pdf = light_triangle_pdf(&light, hit.t * hit.t, math_dot(ng, wo));
-                weight = light.pick > 0.0f ? power_heuristic(pdf, light_pdf) : 1.0f;
+                weight =
+                    power_heuristic(1.0f / (pdf * light_triangle_inverse_pdf(&light, 1.0f / (hit.t * hit.t),
+                                                                             math_dot(ng, wo))));
             }
             radiance += throughput * surface_emission(scene, material, s.uv0, s.uv1) * weight;
         }
@@ -196,14 +197,15 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                 int lit = side * wi.z > 0.0f;
 #if TRIAD_ENVIRONMENT_MAP
                 /* what the camera sees through the surface is alpha, however it is found (pdf 0: no map) */
-                if (straight && side < 0.0f && frame->transparent && light.distant && light.pdf > 0.0f)
+                if (straight && side < 0.0f && frame->transparent && light.distant &&
+                    light.inverse_pdf > 0.0f)
                     lit = 0;
 #endif
-                if (lit) {
+                if (lit && light_complete(scene, &light)) {
                     float bsdf_pdf;
                     const float3 f = bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
-                    const float weight = light.pdf > 0.0f ? power_heuristic(light.pdf, bsdf_pdf) : 1.0f;
-                    float3 direct = throughput * f * light.weight * weight;
+                    float3 direct =
+                        throughput * f * light.weight * power_heuristic(bsdf_pdf * light.inverse_pdf);
 #if TRIAD_TRANSMISSION
                     const uint around_light =
                         side < 0.0f ? path_body_beyond(flags, back, s.material, body) : body;
@@ -250,7 +252,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         } else if (!(math_max3(throughput) > 0.0f)) {
             break;
         }
-        ray = path_spawn(&s, side > 0.0f ? ng : -ng, &hit, normalize_or(direction, ng));
+        ray = path_spawn(&s, side > 0.0f ? ng : -ng, &hit, direction);
     }
     return (float4)(radiance, alpha);
 }

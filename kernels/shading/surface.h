@@ -101,9 +101,14 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     const float u = hit->u, v = hit->v;
     const uint instance = hit->instance;
     Surface s;
-    const Triangle t = scene->triangles[hit->primitive];
-    const Geometry g = scene->geometries[t.geometry];
-    s.geometry = t.geometry;
+    s.geometry = scene->blocks[hit->block >> 2].geometry[hit->block & 3u];
+    const Geometry g = scene->geometries[s.geometry];
+    /* the corners' indices are asked for only where a vertex has attributes: one cache line less for the
+     * others */
+    const int attributes = g.normal != TRIAD_NONE || g.tangent != TRIAD_NONE || g.uv[0] != TRIAD_NONE ||
+                           g.uv[1] != TRIAD_NONE || g.colour != TRIAD_NONE;
+    Triangle t = {{0u, 0u, 0u}, 0u};
+    if (attributes) t = scene->triangles[hit->primitive];
     s.material = g.material;
     float3 p0 = surface_corner(scene, hit->block, 0u);
     float3 p1 = surface_corner(scene, hit->block, 1u);
