@@ -215,8 +215,9 @@ typedef struct CdfShape {
 } CdfShape;
 TRIAD_SIZE(CdfShape, 40);
 
-#define ENVIRONMENT_FLOAT 0u /* float[4] per texel */
-#define ENVIRONMENT_RGBE 1u  /* one uint per texel: 8-bit R, G, B from the low byte, times 2^(top byte - 127) */
+/* A texel of the environment and the solid-angle density of drawing a direction in it. */
+#define ENVIRONMENT_FLOAT 0u /* float[4]: R, G, B, density */
+#define ENVIRONMENT_RGBE 1u  /* uint[2]: 8-bit R, G, B from the low byte, times 2^(top byte - 127); density */
 
 /* The environment: radiance = strength * texel, bilinear. World y is up before the rotation about it.
  * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere. */
@@ -225,13 +226,12 @@ typedef struct Environment {
     uint light; /* its Light, or TRIAD_NONE when it emits nothing */
     float strength;
     float rotate_cos, rotate_sin; /* map direction = (c x + s z, y, -s x + c z) of world direction */
-    CdfShape rows, columns; /* one tree over rows of cells, one tree per row over columns */
-    uint cells[2];          /* the grid that directions are drawn from: columns and rows */
+    CdfShape rows, columns; /* one tree over rows, one tree per row over columns */
     float colour[4];        /* used when width is 0 */
     uint format;
-    uint unused[3];
+    uint unused;
 } Environment;
-TRIAD_SIZE(Environment, 144);
+TRIAD_SIZE(Environment, 128);
 
 /* ---- Camera and film -------------------------------------------------------------------------------------------------- */
 
@@ -269,7 +269,7 @@ typedef struct Frame {
     CdfShape lights; /* the tree that lights are picked by */
     uint unused[2];
 } Frame;
-TRIAD_SIZE(Frame, 320);
+TRIAD_SIZE(Frame, 304);
 
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4

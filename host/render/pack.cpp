@@ -85,7 +85,6 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
     add(packed.lights);
     add(packed.light_cdf);
     add(packed.env_texels);
-    add(packed.env_densities);
     add(packed.env_rows);
     add(packed.env_columns);
     add(packed.env_cosines);

@@ -34,7 +34,7 @@ struct PackedScene {
     std::vector<std::uint32_t> texels;
     std::vector<dev::Light> lights;
     std::vector<std::uint32_t> light_cdf;
-    std::vector<float> env_densities, env_cosines;
+    std::vector<float> env_cosines;
     std::vector<std::uint32_t> env_texels, env_rows, env_columns;
     dev::CdfShape light_shape{};
     dev::Environment environment{};

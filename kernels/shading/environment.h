@@ -36,15 +36,18 @@ TRIAD_FUNCTION float2 environment_uv(const Environment* e, float3 d) {
                     math_acos(clamp(d.y, -1.0f, 1.0f)) * 0.31830988618f);
 }
 
-TRIAD_FUNCTION float3 environment_texel(const Scene* scene, const Environment* e, int x, int y) {
+/* RGB, and in w the density of drawing a direction in this texel. */
+TRIAD_FUNCTION float4 environment_texel(const Scene* scene, const Environment* e, int x, int y) {
     const size_t i = (size_t)(y * (int)e->width + x);
-    if (e->format == ENVIRONMENT_FLOAT) return vload4(i, (global const float*)scene->env_texels).xyz;
-    const uint t = scene->env_texels[i];
-    return convert_float4(as_uchar4(t)).xyz * as_float((t & 0xff000000u) >> 1);
+    if (e->format == ENVIRONMENT_FLOAT) return as_float4(vload4(i, scene->env_texels));
+    const uint2 t = vload2(i, scene->env_texels);
+    float4 texel = convert_float4(as_uchar4(t.x)) * as_float((t.x & 0xff000000u) >> 1);
+    texel.w = as_float(t.y);
+    return texel;
 }
 
-/* Radiance at map coordinates, bilinear. */
-TRIAD_FUNCTION float3 environment_lookup(const Scene* scene, const Environment* e, float2 uv) {
+/* Radiance at map coordinates, bilinear; *pdf: solid-angle density of environment_sample there. */
+TRIAD_FUNCTION float3 environment_lookup(const Scene* scene, const Environment* e, float2 uv, float* pdf) {
     const float x = uv.x * (float)e->width - 0.5f, y = uv.y * (float)e->height - 0.5f;
     const float fx = math_floor(x), fy = math_floor(y);
     const int w = (int)e->width, h = (int)e->height;
@@ -53,17 +56,12 @@ TRIAD_FUNCTION float3 environment_lookup(const Scene* scene, const Environment* 
     x1 = x1 < 0 ? x1 + w : x1 >= w ? x1 - w : x1;
     const int y0 = clamp((int)fy, 0, h - 1), y1 = clamp((int)fy + 1, 0, h - 1);
     const float ax = x - fx, ay = y - fy;
-    const float3 a = environment_texel(scene, e, x0, y0), b = environment_texel(scene, e, x1, y0);
-    const float3 c = environment_texel(scene, e, x0, y1), d = environment_texel(scene, e, x1, y1);
-    const float3 top = a + (b - a) * ax, bottom = c + (d - c) * ax;
-    return (top + (bottom - top) * ay) * e->strength;
-}
-
-/* Solid-angle density of environment_sample at map coordinates: constant over a cell. */
-TRIAD_FUNCTION float environment_pdf(const Scene* scene, const Environment* e, float2 uv) {
-    const uint column = min((uint)(uv.x * (float)e->cells[0]), e->cells[0] - 1u);
-    const uint row = min((uint)(uv.y * (float)e->cells[1]), e->cells[1] - 1u);
-    return scene->env_densities[row * e->cells[0] + column];
+    const float4 a = environment_texel(scene, e, x0, y0), b = environment_texel(scene, e, x1, y0);
+    const float4 c = environment_texel(scene, e, x0, y1), d = environment_texel(scene, e, x1, y1);
+    const float4 top = a + (b - a) * ax, bottom = c + (d - c) * ax;
+    /* the density is constant over a texel: that of the nearest one */
+    *pdf = ay < 0.5f ? (ax < 0.5f ? a.w : b.w) : (ax < 0.5f ? c.w : d.w);
+    return (top + (bottom - top) * ay).xyz * e->strength;
 }
 
 /* Draws a direction from two uniform integers; returns its map coordinates. */
@@ -75,7 +73,7 @@ TRIAD_FUNCTION float3 environment_sample(const Scene* scene, const Environment* 
                                  u.x, &fraction_column, &unused);
     const float c0 = scene->env_cosines[row], c1 = scene->env_cosines[row + 1u];
     const float y = c0 + (c1 - c0) * fraction_row;
-    uv->x = ((float)column + fraction_column) / (float)e->cells[0];
+    uv->x = ((float)column + fraction_column) / (float)e->width;
     uv->y = math_acos(clamp(y, -1.0f, 1.0f)) * 0.31830988618f;
     const float s = sqrt((1.0f - y) * (1.0f + y));
     float sine, cosine;
@@ -94,8 +92,9 @@ TRIAD_FUNCTION float3 environment_radiance(const Scene* scene, float3 d, float* 
 #if TRIAD_ENVIRONMENT_MAP
     if (e.width != 0u) {
         const float2 uv = environment_uv(&e, d);
-        if (e.light != TRIAD_NONE) *pdf = environment_pdf(scene, &e, uv) * scene->lights[e.light].pick;
-        return environment_lookup(scene, &e, uv);
+        const float3 radiance = environment_lookup(scene, &e, uv, pdf);
+        *pdf = e.light != TRIAD_NONE ? *pdf * scene->lights[e.light].pick : 0.0f;
+        return radiance;
     }
 #endif
     return (float3)(e.colour[0], e.colour[1], e.colour[2]);

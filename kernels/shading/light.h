@@ -117,7 +117,7 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
         s->direction = environment_sample(scene, &e, u, &s->uv);
-        s->inverse_pdf = light.pick;
+        s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
         s->distant = 1;
         return 1;
     }
@@ -130,10 +130,12 @@ TRIAD_FUNCTION int light_complete(const Scene* scene, LightSample* s) {
 #if TRIAD_ENVIRONMENT_MAP
     if (s->distant && s->inverse_pdf > 0.0f) {
         const Environment e = scene->frame->environment;
-        const float pdf = environment_pdf(scene, &e, s->uv) * s->inverse_pdf;
+        float pdf;
+        const float3 radiance = environment_lookup(scene, &e, s->uv, &pdf);
+        pdf *= s->inverse_pdf;
         if (!(pdf > 0.0f)) return 0;
         s->inverse_pdf = 1.0f / pdf;
-        s->weight = environment_lookup(scene, &e, s->uv) * s->inverse_pdf;
+        s->weight = radiance * s->inverse_pdf;
     }
 #endif
     return 1;

@@ -25,12 +25,11 @@ typedef struct Scene {
     global const float* srgb;   /* decoded value of every byte of an sRGB texel */
     global const float* albedo; /* directional-albedo tables of shading/bsdf.h */
     global const Light* lights;
-    global const uint* light_cdf;      /* tree of shape frame->lights */
-    global const uint* env_texels;     /* one or four per texel, see ENVIRONMENT_RGBE */
-    global const float* env_densities; /* per cell: solid-angle density of drawing a direction in it */
-    global const uint* env_rows;       /* tree of shape environment.rows */
-    global const uint* env_columns;    /* a tree of shape environment.columns for every row */
-    global const float* env_cosines;   /* height + 1: cosine of the polar angle of the rows' borders */
+    global const uint* light_cdf;    /* tree of shape frame->lights */
+    global const uint* env_texels;   /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */
+    global const uint* env_rows;     /* tree of shape environment.rows */
+    global const uint* env_columns;  /* a tree of shape environment.columns for every row */
+    global const float* env_cosines; /* height + 1: cosine of the polar angle of the rows' borders */
 } Scene;
 
 #define SCENE_PARAMETERS                                                                                  \
@@ -40,14 +39,14 @@ typedef struct Scene {
         global const float *uvs, global const float *colours, global const Material *materials,           \
         global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels, \
         global const float *srgb, global const float *albedo, global const Light *lights,                 \
-        global const uint *light_cdf, global const uint *env_texels, global const float *env_densities,   \
-        global const uint *env_rows, global const uint *env_columns, global const float *env_cosines
+        global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,         \
+        global const uint *env_columns, global const float *env_cosines
 
 #define SCENE_FROM_PARAMETERS                                                                               \
     {                                                                                                       \
         frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials, \
-            texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_densities,     \
-            env_rows, env_columns, env_cosines                                                              \
+            texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows,          \
+            env_columns, env_cosines                                                                        \
     }
 
 TRIAD_FUNCTION float3 load3(global const float* values, uint index) { return vload3(index, values); }
