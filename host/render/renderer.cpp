@@ -18,6 +18,9 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 
 constexpr double launch_seconds =
     0.05;  ///< watchdogs, cancelling and progress want short launches, overhead long ones
+/// Work-items of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
+/// there is one program for everything, and compiling is over before rendering begins.
+constexpr std::size_t largest_launch = 65535 / 64 * 64;
 constexpr std::size_t tile =
     64;  ///< pixels of a tile of 8 x 8: the unit of path_pixel() in kernels/shading/path.cl
 
@@ -85,7 +88,8 @@ struct Renderer::State {
             const double fit = items_per_second * launch_seconds / count;
             const std::size_t wanted =
                 items_per_second > 0 ? static_cast<std::size_t>(std::max(fit, 1.0)) : 16 * tile;
-            const std::size_t pixels = std::min(items - pixel, (wanted + tile - 1) / tile * tile);
+            const std::size_t pixels =
+                std::min({items - pixel, (wanted + tile - 1) / tile * tile, largest_launch});
             const auto start = Clock::now();
             launch(pixel, pixels, first, count);
             device.finish();

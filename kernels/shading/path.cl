@@ -350,10 +350,12 @@ kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_s
         const long a = film_fixed(value.w, local_frame.quanta, &saturated);
         tally.saturated += saturated;
         global long* sum = sums + (pixel * bins + name.bin) * FILM_CHANNELS;
-        sum[0] += r, sum[1] += g, sum[2] += b, sum[3] += a;
+        sum[0] = add_sat(sum[0], r), sum[1] = add_sat(sum[1], g), sum[2] = add_sat(sum[2], b),
+        sum[3] = add_sat(sum[3], a);
         if (name.half_index == 0u) {
             global long* half_sum = half_sums + pixel * 3;
-            half_sum[0] += r, half_sum[1] += g, half_sum[2] += b;
+            half_sum[0] = add_sat(half_sum[0], r), half_sum[1] = add_sat(half_sum[1], g),
+            half_sum[2] = add_sat(half_sum[2], b);
         }
     }
     samples[pixel] += sample_count;
