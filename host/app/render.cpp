@@ -13,6 +13,7 @@
 #include "base/parallel_for.h"
 #include "base/progress.h"
 #include "kernels/types.h"
+#include "measure/tune.h"
 #include "render/renderer.h"
 #include "scene/builtin_scene.h"
 
@@ -131,7 +132,9 @@ Exit run(RenderOptions o) {
     const RenderSettings settings = settings_of(o, scene);
     const double load_s = since(load_start);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    detail("Device: " + device.info().name + ", driver " + device.info().driver);
+    const std::size_t local = ensure_tuned(device);
+    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", work-groups of " +
+           std::to_string(local));
     Renderer renderer(device, scene, settings);
     std::string left_out_text;
     for (const std::string& name : left_out(renderer.features()))

@@ -80,7 +80,7 @@ void declare(CLI::App& command, RenderOptions& o) {
     CLI::Option* env = command.add_option("--env", o.env_path, "Lat-long environment, .hdr or .exr")
                            ->type_name("FILE")
                            ->group(light_group);
-    command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis")
+    command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis, from +x towards +z")
         ->type_name("DEG")
         ->needs(env)
         ->group(light_group);

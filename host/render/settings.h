@@ -18,7 +18,7 @@ struct RenderSettings {
     bool transparent =
         false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
     View view;
-    double environment_rotation = 0.0;  ///< radians about +y
+    double environment_rotation = 0.0;  ///< radians, from +x towards +z
     double environment_strength = 1.0;
     /// Meshes that are placed more than once are flattened (faster) while the scene stays below this many
     /// triangles, and instanced (smaller) beyond.

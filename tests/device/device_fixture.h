@@ -1,10 +1,11 @@
 #pragma once
-/// What device tests share: one open device per process, chosen by the environment variable TRIAD_TEST_DEVICE
-/// (a
-/// --device selector; default: what Triad would choose).
+/// What device tests share: one open device per process, with the work-group size that is fastest on it,
+/// chosen by the environment variable TRIAD_TEST_DEVICE (a --device selector; default: what Triad would
+/// choose).
 #include <cstdlib>
 
 #include "device/device.h"
+#include "measure/tune.h"
 
 namespace triad {
 
@@ -12,7 +13,9 @@ inline Device& test_device() {
     // Never destroyed: some drivers unload themselves before static objects go.
     static Device* const device = [] {
         const char* selector = std::getenv("TRIAD_TEST_DEVICE");
-        return new Device(Device::open({.selector = selector ? selector : ""}));
+        auto* opened = new Device(Device::open({.selector = selector ? selector : ""}));
+        ensure_tuned(*opened);  // 64 is several times slower where the driver vectorises across work-items
+        return opened;
     }();
     return *device;
 }

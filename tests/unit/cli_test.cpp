@@ -1,38 +1,21 @@
 // What the command line promises: exit codes, and sentences that name what is wrong. Nothing here needs a
 // device.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "program.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Outcome {
-    int exit = -1;
-    std::string output;  ///< both streams
-};
-
-Outcome triad(const std::string& arguments, const std::string& before = "") {
-    Outcome outcome;
-    FILE* pipe = ::popen((before + " '" TRIAD_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
-    std::array<char, 4096> buffer;
-    for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        outcome.output.append(buffer.data(), n);
-    const int status = ::pclose(pipe);
-    outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
-}
-
 void expect(const std::string& arguments, int exit, const std::string& sentence,
             const std::string& before = "") {
-    const Outcome outcome = triad(arguments, before);
+    const Outcome outcome = run_triad(arguments, before);
     EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
     EXPECT_NE(outcome.output.find(sentence), std::string::npos) << arguments << "\n" << outcome.output;
 }
@@ -94,5 +77,5 @@ TEST(CommandLine, a_full_disk_leaves_an_older_report_as_it_was) {
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), "older");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1) << "something was left behind";
     fs::remove_all(folder);
-    EXPECT_EQ(triad("devices --json - >/dev/full").exit, 2);
+    EXPECT_EQ(run_triad("devices --json - >/dev/full").exit, 2);
 }

@@ -1,0 +1,259 @@
+// What triad render promises about its options and files, through the command line and on the built-in scene.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "io/io.h"
+#include "program.h"
+#include "unit/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace triad;
+
+namespace {
+
+std::string bytes_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void expect_done(const std::string& arguments, int exit = 0) {
+    const Outcome outcome = run_triad(arguments);
+    ASSERT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
+}
+
+float value(const Picture& picture, const std::string& channel, unsigned x, unsigned y) {
+    return picture.find(channel)->values[std::size_t(y) * picture.width + x];
+}
+
+/// A render in the background whose standard error is read as it comes.
+class Running {
+  public:
+    explicit Running(const std::string& arguments) {
+        int ends[2];
+        EXPECT_EQ(::pipe(ends), 0);
+        child_ = ::fork();
+        if (child_ == 0) {
+            ::dup2(ends[1], 2);
+            ::close(ends[0]), ::close(ends[1]);
+            ::execl("/bin/sh", "sh", "-c", ("exec '" TRIAD_PROGRAM "' " + arguments).c_str(), nullptr);
+            ::_exit(127);
+        }
+        ::close(ends[1]);
+        errors_ = ::fdopen(ends[0], "r");
+    }
+    ~Running() { std::fclose(errors_); }
+
+    /// Reads lines up to the first that holds `text`; false when the program ends before that.
+    bool says(const std::string& text) {
+        char line[4096];
+        while (std::fgets(line, sizeof line, errors_)) {
+            said_ += line;
+            if (std::string(line).find(text) != std::string::npos) return true;
+        }
+        return false;
+    }
+    void interrupt() { ::kill(child_, SIGINT); }
+    int wait() {
+        int status = 0;
+        ::waitpid(child_, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    const std::string& said() const { return said_; }
+
+  private:
+    pid_t child_ = 0;
+    FILE* errors_ = nullptr;
+    std::string said_;
+};
+
+}  // namespace
+
+TEST(RenderCommand, three_uneven_ranges_in_any_order_give_the_bytes_of_one_run) {
+    const TemporaryFolder folder;
+    for (const std::string bins : {"1x1", "2x2"}) {
+        const std::string render = "render --size 40x24 --bins " + bins + " --film " + (folder / "").string();
+        expect_done(render + "whole --samples 0:24");
+        expect_done(render + "a --samples 0:4");
+        expect_done(render + "b --samples 4:20");
+        expect_done(render + "c --samples 20:24");
+        const std::string whole = bytes_of(folder / "whole");
+        for (const char* order : {"a b c", "a c b", "b a c", "b c a", "c a b", "c b a"}) {
+            const Outcome merged = run_triad("merge " + std::string(order) + " -o m --expect-spp 24",
+                                             "cd '" + (folder / "").string() + "';");
+            ASSERT_EQ(merged.exit, 0) << merged.output;
+            EXPECT_TRUE(bytes_of(folder / "m") == whole) << order << ", bins " << bins;
+        }
+    }
+}
+
+TEST(RenderCommand, an_incomplete_merge_names_the_samples_that_are_missing) {
+    const TemporaryFolder folder;
+    const std::string render = "render --size 8x8 --film " + (folder / "").string();
+    expect_done(render + "a --samples 0:2");
+    expect_done(render + "b --samples 5:8");
+    const Outcome merged = run_triad("merge b a -o m --expect-spp 9", "cd '" + (folder / "").string() + "';");
+    EXPECT_EQ(merged.exit, 6) << merged.output;
+    EXPECT_NE(merged.output.find("--samples 2:5 --samples 8:9"), std::string::npos) << merged.output;
+    EXPECT_TRUE(fs::exists(folder / "m"));
+}
+
+TEST(RenderCommand, an_interrupt_finishes_the_pass_and_saves) {
+    const TemporaryFolder folder;
+    const fs::path picture = folder / "a.exr", film = folder / "a.film";
+    Running render("render --size 64x36 --spp 1000000 --progress json -o " + picture.string() + " --film " +
+                   film.string());
+    ASSERT_TRUE(render.says("\"progress\"")) << render.said();
+    render.interrupt();
+    EXPECT_TRUE(render.says("Stopped early")) << render.said();
+    EXPECT_EQ(render.wait(), 75) << render.said();
+    const Film saved = load_film(film);
+    ASSERT_EQ(saved.ranges.size(), 1u);
+    EXPECT_EQ(saved.ranges[0].begin, 0u);
+    EXPECT_LT(saved.ranges[0].end, 1000000u);
+    for (const std::uint32_t samples : saved.samples) ASSERT_EQ(samples, saved.ranges[0].end);
+    EXPECT_EQ(read_picture(picture).metadata.at("triad:spp"), std::to_string(saved.ranges[0].end));
+}
+
+TEST(RenderCommand, a_second_interrupt_quits_at_once) {
+    const TemporaryFolder folder;
+    // One pass over so many pixels takes many seconds.
+    Running render("render --size 6000x4000 --spp 1 -v --progress none -o " + (folder / "a.png").string());
+    ASSERT_TRUE(render.says("Not needed by this scene")) << render.said();
+    ::usleep(500000);  // from that line to the handler is a few instructions
+    render.interrupt();
+    ASSERT_TRUE(render.says("once more to quit")) << render.said();
+    render.interrupt();
+    EXPECT_EQ(render.wait(), 130) << render.said();
+    EXPECT_FALSE(fs::exists(folder / "a.png"));
+}
+
+TEST(RenderCommand, every_layer_is_there_and_means_what_it_says) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "a.exr";
+    expect_done("render --size 32x18 --spp 6 --seed 7 --aov all -o " + path.string());
+    const Picture picture = read_picture(path);
+    for (const char* name :
+         {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "position.X",
+          "position.Y", "position.Z", "depth.Z", "samplecount.Y", "variance.R", "variance.G", "variance.B"})
+        ASSERT_NE(picture.find(name), nullptr) << name;
+    for (const char* name :
+         {"version", "spp", "relmse", "scene", "settings", "seed", "seconds", "device", "driver"})
+        EXPECT_FALSE(picture.metadata.at("triad:" + std::string(name)).empty()) << name;
+    EXPECT_EQ(picture.metadata.at("triad:seed"), "7");
+    EXPECT_EQ(picture.metadata.at("triad:spp"), "6");
+    EXPECT_GT(std::stod(picture.metadata.at("triad:relmse")), 0);
+    unsigned covered = 0;
+    for (unsigned y = 0; y < picture.height; ++y)
+        for (unsigned x = 0; x < picture.width; ++x) {
+            EXPECT_EQ(value(picture, "samplecount.Y", x, y), 6);
+            EXPECT_GE(value(picture, "variance.G", x, y), 0);
+            EXPECT_GE(value(picture, "albedo.R", x, y), 0);
+            EXPECT_LE(value(picture, "albedo.R", x, y), 1);
+            const float nx = value(picture, "normal.X", x, y), ny = value(picture, "normal.Y", x, y),
+                        nz = value(picture, "normal.Z", x, y);
+            EXPECT_LT(nx * nx + ny * ny + nz * nz, 1.001f);
+            covered += value(picture, "depth.Z", x, y) > 0;
+        }
+    EXPECT_GT(covered, picture.width * picture.height / 2) << "the built-in scene has a floor";
+}
+
+TEST(RenderCommand, a_crop_is_a_part_of_the_picture) {
+    const TemporaryFolder folder;
+    expect_done("render --size 32x18 --spp 2 -o " + (folder / "whole.exr").string());
+    expect_done("render --size 32x18 --spp 2 --crop 3,5,20,7 -o " + (folder / "crop.exr").string());
+    const Picture whole = read_picture(folder / "whole.exr"), crop = read_picture(folder / "crop.exr");
+    ASSERT_EQ(crop.width, 20u);
+    ASSERT_EQ(crop.height, 7u);
+    EXPECT_EQ(crop.x, 3u);
+    EXPECT_EQ(crop.y, 5u);
+    EXPECT_EQ(crop.full_width, 32u);
+    EXPECT_EQ(crop.full_height, 18u);
+    for (unsigned y = 0; y < 7; ++y)
+        for (unsigned x = 0; x < 20; ++x)
+            ASSERT_EQ(value(crop, "G", x, y), value(whole, "G", x + 3, y + 5)) << x << ", " << y;
+    EXPECT_EQ(run_triad("render --size 32x18 --crop 13,5,20,7 -o " + (folder / "x.exr").string()).exit, 1);
+}
+
+TEST(RenderCommand, half_rounds_what_float_holds) {
+    const TemporaryFolder folder;
+    const std::string render = "render --size 32x18 --spp 2 -o " + (folder / "").string();
+    expect_done(render + "float.exr");
+    expect_done(render + "half.exr --half");
+    const Picture wide = read_picture(folder / "float.exr"), narrow = read_picture(folder / "half.exr");
+    unsigned rounded = 0;
+    for (std::size_t i = 0; i < wide.find("G")->values.size(); ++i) {
+        const float a = wide.find("G")->values[i], b = narrow.find("G")->values[i];
+        ASSERT_NEAR(a, b, std::abs(a) * 0x1p-11f + 0x1p-25f);
+        rounded += a != b;
+    }
+    EXPECT_GT(rounded, 0u);
+}
+
+TEST(RenderCommand, the_environment_turns_from_x_towards_z_and_scales) {
+    const TemporaryFolder folder;
+    // Quarters of the horizon centred on -x, -z, +x, +z: u = 0, .25, .5, .75.
+    Picture map;
+    map.width = 64, map.height = 32;
+    map.channels = {{"R", {}}, {"G", {}}, {"B", {}}};
+    for (unsigned y = 0; y < map.height; ++y)
+        for (unsigned x = 0; x < map.width; ++x) {
+            const unsigned quarter = (x + 8) % 64 / 16;
+            for (unsigned c = 0; c < 3; ++c) map.channels[c].values.push_back(quarter == c ? 1.0f : 0.0f);
+        }
+    const std::string file = (folder / "map.exr").string();
+    write_exr(file, map);
+    // Far above the scene, looking level: nothing but the environment is in view.
+    const auto seen = [&](const std::string& towards, const std::string& options) {
+        const std::string out = (folder / "seen.exr").string();
+        expect_done("render --size 4x4 --spp 1 --fov 5 --look-at 0,1000,0," + towards + " --env " + file +
+                    " " + options + " -o " + out);
+        const Picture picture = read_picture(out);
+        return std::array{value(picture, "R", 1, 1), value(picture, "G", 1, 1), value(picture, "B", 1, 1)};
+    };
+    using Colour = std::array<float, 3>;
+    EXPECT_EQ(seen("-1,1000,0", ""), (Colour{1, 0, 0}));
+    EXPECT_EQ(seen("0,1000,-1", ""), (Colour{0, 1, 0}));
+    EXPECT_EQ(seen("1,1000,0", ""), (Colour{0, 0, 1}));
+    EXPECT_EQ(seen("0,1000,1", ""), (Colour{0, 0, 0}));
+    EXPECT_EQ(seen("0,1000,1", "--env-rotate 90 --env-strength 2"), (Colour{0, 0, 2}));
+    EXPECT_EQ(seen("0,1000,-1", "--env-rotate 90"), (Colour{1, 0, 0}));
+}
+
+TEST(RenderCommand, the_background_is_transparent_or_the_colour_asked_for) {
+    const TemporaryFolder folder;
+    const std::string render =
+        "render --size 4x4 --spp 1 --look-at 0,1000,0,1,1000,0 -o " + (folder / "a.png").string();
+    expect_done(render + " --background transparent");
+    Picture picture = read_picture(folder / "a.png");
+    ASSERT_NE(picture.find("A"), nullptr);
+    EXPECT_EQ(value(picture, "A", 2, 2), 0);
+    expect_done(render + " --background '#4080c0'");
+    picture = read_picture(folder / "a.png");
+    EXPECT_EQ(picture.find("A"), nullptr);
+    EXPECT_EQ(std::lround(255 * value(picture, "R", 2, 2)), 0x40);
+    EXPECT_EQ(std::lround(255 * value(picture, "G", 2, 2)), 0x80);
+    EXPECT_EQ(std::lround(255 * value(picture, "B", 2, 2)), 0xc0);
+}
+
+TEST(RenderCommand, a_full_disk_is_a_sentence_and_leaves_the_older_picture) {
+    const TemporaryFolder folder;
+    const fs::path picture = folder / "a.exr";
+    const std::string render = "render --size 800x450 --spp 1 -o " + picture.string();
+    expect_done(render);
+    const std::string older = bytes_of(picture);
+    // A limit on the size of files is the disk that fills up; drivers write smaller ones while they compile.
+    ASSERT_GT(older.size(), 2u << 20);
+    const Outcome outcome = run_triad(render + " --seed 2", "ulimit -f 4096;");  // blocks of 512 bytes
+    EXPECT_EQ(outcome.exit, 2) << outcome.output;
+    EXPECT_NE(outcome.output.find("a.exr"), std::string::npos) << outcome.output;
+    EXPECT_TRUE(bytes_of(picture) == older);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / ""), {}), 1) << "something was left behind";
+    EXPECT_EQ(run_triad("render --size 8x8 --spp 1 -q -o - > /dev/full").exit, 2);
+}
