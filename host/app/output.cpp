@@ -1,14 +1,18 @@
 #include "app/output.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <map>
 
 #include "app/metadata.h"
 #include "base/error.h"
-#include "base/files.h"
 #include "base/log.h"
 #include "render/resolve.h"
 
@@ -99,7 +103,9 @@ void check_writable(const std::string& path) {
         throw Error(Exit::scene, "Cannot write " + path + ": there is no folder " + folder.string() + ".");
     if (fs::exists(path) && !fs::is_regular_file(path)) return;  // a device or pipe is written to directly
     const fs::path probe = folder / (".triad-probe" + fs::path(path).filename().string());
-    write_file(probe, "");
+    const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    if (file < 0) throw Error(Exit::scene, "Cannot write " + path + ": " + std::strerror(errno) + ".");
+    ::close(file);
     fs::remove(probe);
 }
 

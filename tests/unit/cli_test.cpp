@@ -58,6 +58,7 @@ TEST(CommandLine, missing_files_are_scene_errors) {
 TEST(CommandLine, outputs_are_checked_before_rendering) {
     expect("render -o /no/such/folder/x.png --spp 1000000", 2, "/no/such/folder");
     expect("render -o /tmp --spp 1000000", 1, "/tmp");
+    expect("render -o /proc/x.png --spp 1000000", 2, "Cannot write /proc/x.png:");
     expect("render --film /no/such/folder/x --spp 1000000", 2, "/no/such/folder");
 }
 
