@@ -22,7 +22,7 @@ constexpr double launch_seconds =
 /// there is one program for everything, and compiling is over before rendering begins.
 constexpr std::size_t largest_launch = 65535 / 64 * 64;
 constexpr std::size_t tile =
-    64;  ///< pixels of a tile of 8 x 8: the unit of path_pixel() in kernels/shading/path.cl
+    64;  ///< pixels of a tile of 8 x 8: the unit of sample_pixel() in kernels/shading/sample.h
 
 void check(const RenderSettings& s) {
     auto refuse = [](const std::string& what) { throw Error(Exit::usage, what); };
@@ -46,7 +46,7 @@ struct Renderer::State {
     dev::Frame frame{};
     DeviceScene scene;
     Features features;
-    Kernel trace_paths, trace_features;
+    Kernel trace_paths;
     Buffer sums, half_sums, samples, counters;
     std::size_t items = 0;  ///< pixels of the crop, padded to whole tiles
     Film film;              ///< without the arrays
@@ -139,9 +139,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.scene.bytes += s.sums.bytes() + s.half_sums.bytes() + s.samples.bytes();
 
     const auto compile_start = Clock::now();
-    const Program program = device.build("shading/path.cl", options_of(s.features));
-    s.trace_paths = program.kernel("trace_paths");
-    s.trace_features = program.kernel("trace_features");
+    s.trace_paths = device.build("shading/path.cl", options_of(s.features)).kernel("trace_paths");
     // Some drivers generate code at the first launch: one tile, thrown away, keeps that out of render times.
     s.clear_film();
     s.launch(0, tile, 0, 1);
@@ -193,16 +191,18 @@ Film Renderer::film() {
 
 Renderer::FeaturePlanes Renderer::feature_planes(unsigned samples) {
     State& s = *state_;
+    const Kernel trace_features =
+        s.device.build("shading/features.cl", options_of(s.features)).kernel("trace_features");
     const std::size_t pixels = s.film.pixels();
     Buffer planes[4];
     for (int i = 0; i < 4; ++i) planes[i] = s.device.allocate(pixels * (i == 3 ? 1 : 3) * sizeof(float));
     Arguments arguments = s.scene.arguments;
     for (const Buffer& b : planes) arguments.add(b);
     const std::size_t chunk =
-        std::max<std::size_t>(tile, std::min(s.items, std::size_t(1) << 20) / samples / tile * tile);
+        std::max<std::size_t>(tile, std::min({s.items, (std::size_t(1) << 20) / samples, largest_launch}) / tile * tile);
     for (std::size_t pixel = 0; pixel < s.items; pixel += chunk) {
         const std::size_t count = std::min(chunk, s.items - pixel);
-        s.device.run(s.trace_features,
+        s.device.run(trace_features,
                      Arguments()
                          .add(arguments)
                          .add(std::uint32_t(pixel))

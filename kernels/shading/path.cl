@@ -5,9 +5,9 @@
 #include "common/frame.h"
 #include "common/random.h"
 #include "shading/bsdf.h"
-#include "shading/camera.h"
 #include "shading/coverage.h"
 #include "shading/light.h"
+#include "shading/sample.h"
 #include "shading/surface.h"
 #include "subpixel/film.h"
 #include "traversal/traverse.h"
@@ -255,69 +255,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
     return (float4)(radiance, alpha);
 }
 
-/* Film position of work-item i of the crop: tiles of 8 x 8 pixels, so that neighbours in a work-group are
- * neighbours in the picture. Outside the crop (ragged edges): returns 0. */
-TRIAD_FUNCTION int path_pixel(const uint crop[4], uint i, uint* x, uint* y) {
-    const uint tiles = (crop[2] + 7u) / 8u;
-    const uint tile = i / 64u, in_tile = i % 64u;
-    *x = (tile % tiles) * 8u + in_tile % 8u;
-    *y = (tile / tiles) * 8u + in_tile / 8u;
-    return *x < crop[2] && *y < crop[3];
-}
-
-/* Sample s of a pixel: which bin and half it falls into, and its samplers. Within a pixel the bins take
- * turns, each pixel from another one; the halves take turns after every bin had one. */
-typedef struct SampleName {
-    uint bin, half_index;
-    Sampler position; /* of the film position within the bin */
-    Sampler path;     /* of everything else */
-} SampleName;
-
-TRIAD_FUNCTION SampleName path_sample(const Frame* frame, uint pixel, ulong s) {
-    SampleName name;
-    const uint bins = frame->bins[0] * frame->bins[1];
-#if TRIAD_BINS
-    const ulong round = s / bins;
-    const uint turn = (uint)(s % bins);
-    name.bin = (turn + random_mix(pixel ^ frame->seed) % bins) % bins;
-#else
-    const ulong round = s;
-    const uint turn = 0u;
-    name.bin = 0u;
-#endif
-    name.half_index = (uint)(round & 1ul);
-    const ulong index = (round >> 1) * bins + turn;
-    name.path = sampler_make(pixel, (uint)index, (uint)(index >> 32), name.half_index, frame->seed);
-#if TRIAD_BINS
-    if (bins > 1u) {
-        name.position = sampler_make(pixel, (uint)(round >> 1), (uint)(round >> 33),
-                                     2u + 2u * name.bin + name.half_index, frame->seed);
-        return name;
-    }
-#endif
-    name.position = name.path;
-    return name;
-}
-
-TRIAD_FUNCTION Ray path_camera_ray(const Frame* frame, const SampleName* name, uint x, uint y) {
-    const SamplerBlock u = sampler_block(&name->position, 0u);
-    float2 at = (float2)(random_float(u.x.s0), random_float(u.y.s0));
-#if TRIAD_BINS
-    at.x = (at.x + (float)(name->bin % frame->bins[0])) / (float)frame->bins[0];
-    at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
-#endif
-    const Camera camera = frame->camera;
-    return camera_ray(&camera, (float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y,
-#if TRIAD_LENS
-                      sampler_2d(&name->path, 1u)
-#else
-                      (float2)(0.0f)
-#endif
-    );
-}
-
 /* Adds samples [first_sample, first_sample + sample_count) of pixels [first_pixel, first_pixel +
- * pixel_count), numbered as in path_pixel, to the film. */
+ * pixel_count), numbered as in sample_pixel, to the film. */
 kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_sums, global uint* samples,
                         volatile global uint* counters, uint first_pixel, uint pixel_count,
                         uint first_sample_low, uint first_sample_high, uint sample_count) {
@@ -326,7 +265,7 @@ kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_s
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;
     uint x, y;
-    if (!path_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
+    if (!sample_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
     const uint full_pixel =
         (local_frame.crop[1] + y) * (uint)local_frame.camera.pixels[0] + local_frame.crop[0] + x;
     const size_t pixel = (size_t)y * local_frame.crop[2] + x;
@@ -334,8 +273,8 @@ kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_s
     const ulong first = ((ulong)first_sample_high << 32) | first_sample_low;
     Tally tally = {0u, 0u, 0u, 0u, 0u};
     for (uint i = 0u; i < sample_count; ++i) {
-        const SampleName name = path_sample(&local_frame, full_pixel, first + i);
-        const Ray ray = path_camera_ray(&local_frame, &name, x, y);
+        const SampleName name = sample_name(&local_frame, full_pixel, first + i);
+        const Ray ray = sample_camera_ray(&local_frame, &name, x, y);
         const float4 value = path_trace(&scene, &name.path, ray, &tally);
         if (!film_is_finite(value)) {
             ++tally.not_finite;
@@ -362,54 +301,4 @@ kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_s
     counter_add(counters, COUNTER_SATURATED, tally.saturated);
     counter_add(counters, COUNTER_TRUNCATED, tally.truncated);
     counter_add(counters, COUNTER_CUT_ENERGY, tally.cut_energy);
-}
-
-/* Means over samples [0, sample_count) of what the camera rays of the same samples meet first: albedo (3
- * floats per pixel), shading normal (3, world), position (3, rebased), depth along the view (1). Over the
- * samples that hit. */
-kernel void trace_features(SCENE_PARAMETERS, global float* albedos, global float* normal_means,
-                           global float* position_means, global float* depths, uint first_pixel,
-                           uint pixel_count, uint sample_count) {
-    const size_t item = get_global_id(0);
-    if (item >= pixel_count) return;
-    const Scene scene = SCENE_FROM_PARAMETERS;
-    const Frame local_frame = *frame;
-    uint x, y;
-    if (!path_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
-    const uint full_pixel =
-        (local_frame.crop[1] + y) * (uint)local_frame.camera.pixels[0] + local_frame.crop[0] + x;
-    const size_t pixel = (size_t)y * local_frame.crop[2] + x;
-    const Camera camera = local_frame.camera;
-    const float3 eye = (float3)(camera.origin[0], camera.origin[1], camera.origin[2]);
-    const float3 forward = (float3)(camera.forward[0], camera.forward[1], camera.forward[2]);
-    Traversal traversal = path_traversal(&scene);
-#if TRIAD_ALPHA_TEST
-    Coverage coverage;
-    coverage.scene = &scene;
-    traversal.context = &coverage;
-#endif
-    float3 albedo_sum = (float3)(0.0f), normal_sum = (float3)(0.0f), position_sum = (float3)(0.0f);
-    float depth_sum = 0.0f;
-    uint hits = 0u;
-    for (uint i = 0u; i < sample_count; ++i) {
-        const SampleName name = path_sample(&local_frame, full_pixel, i);
-        const Ray ray = path_camera_ray(&local_frame, &name, x, y);
-#if TRIAD_ALPHA_TEST
-        coverage.ray = random_mix(name.path.key0 ^ name.path.index_reversed) + 2u;
-#endif
-        const Hit hit = traverse_closest(&traversal, ray);
-        if (hit.primitive == TRIAD_NONE) continue;
-        const Surface s = surface_make(&scene, &hit);
-        const float3 wi = (float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
-        albedo_sum += s.base_colour;
-        normal_sum += math_dot(wi, s.geometric_normal) > 0.0f ? -s.shading_normal : s.shading_normal;
-        position_sum += s.position;
-        depth_sum += math_dot(s.position - eye, forward);
-        ++hits;
-    }
-    const float scale = hits ? 1.0f / (float)hits : 0.0f;
-    vstore3(albedo_sum * (1.0f / (float)sample_count), pixel, albedos);
-    vstore3(normal_sum * scale, pixel, normal_means);
-    vstore3(position_sum * scale, pixel, position_means);
-    depths[pixel] = depth_sum * scale;
 }

@@ -1,0 +1,70 @@
+/* Which pixel a work-item is, and what a sample of a pixel is called: bin, half, random numbers, camera ray.
+ */
+#ifndef TRIAD_SHADING_SAMPLE_H
+#define TRIAD_SHADING_SAMPLE_H
+
+#include "common/random.h"
+#include "shading/camera.h"
+
+/* Film position of work-item i of the crop: tiles of 8 x 8 pixels, so that neighbours in a work-group are
+ * neighbours in the picture. Outside the crop (ragged edges): returns 0. */
+TRIAD_FUNCTION int sample_pixel(const uint crop[4], uint i, uint* x, uint* y) {
+    const uint tiles = (crop[2] + 7u) / 8u;
+    const uint tile = i / 64u, in_tile = i % 64u;
+    *x = (tile % tiles) * 8u + in_tile % 8u;
+    *y = (tile / tiles) * 8u + in_tile / 8u;
+    return *x < crop[2] && *y < crop[3];
+}
+
+/* Sample s of a pixel: which bin and half it falls into, and its samplers. Within a pixel the bins take
+ * turns, each pixel from another one; the halves take turns after every bin had one. */
+typedef struct SampleName {
+    uint bin, half_index;
+    Sampler position; /* of the film position within the bin */
+    Sampler path;     /* of everything else */
+} SampleName;
+
+TRIAD_FUNCTION SampleName sample_name(const Frame* frame, uint pixel, ulong s) {
+    SampleName name;
+    const uint bins = frame->bins[0] * frame->bins[1];
+#if TRIAD_BINS
+    const ulong round = s / bins;
+    const uint turn = (uint)(s % bins);
+    name.bin = (turn + random_mix(pixel ^ frame->seed) % bins) % bins;
+#else
+    const ulong round = s;
+    const uint turn = 0u;
+    name.bin = 0u;
+#endif
+    name.half_index = (uint)(round & 1ul);
+    const ulong index = (round >> 1) * bins + turn;
+    name.path = sampler_make(pixel, (uint)index, (uint)(index >> 32), name.half_index, frame->seed);
+#if TRIAD_BINS
+    if (bins > 1u) {
+        name.position = sampler_make(pixel, (uint)(round >> 1), (uint)(round >> 33),
+                                     2u + 2u * name.bin + name.half_index, frame->seed);
+        return name;
+    }
+#endif
+    name.position = name.path;
+    return name;
+}
+
+TRIAD_FUNCTION Ray sample_camera_ray(const Frame* frame, const SampleName* name, uint x, uint y) {
+    const SamplerBlock u = sampler_block(&name->position, 0u);
+    float2 at = (float2)(random_float(u.x.s0), random_float(u.y.s0));
+#if TRIAD_BINS
+    at.x = (at.x + (float)(name->bin % frame->bins[0])) / (float)frame->bins[0];
+    at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
+#endif
+    const Camera camera = frame->camera;
+    return camera_ray(&camera, (float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y,
+#if TRIAD_LENS
+                      sampler_2d(&name->path, 1u)
+#else
+                      (float2)(0.0f)
+#endif
+    );
+}
+
+#endif
