@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <tuple>
 
 #include "device/opencl.h"
@@ -124,6 +125,10 @@ std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
     cl_uint count = 0;
     // CL_PLATFORM_NOT_FOUND_KHR (-1001) and any other failure mean the same here: nothing is installed that
     // works.
+    // Intel's runtime for CPUs reads this when it is loaded; no other driver knows it. Vectorising whole
+    // kernels across work-items, its default, makes Triad's several times slower (their vectors lie within a
+    // ray) and computes wrong values for some (docs/kernels.md). A value that the user has set stays.
+    ::setenv("CL_CONFIG_CPU_VECTORIZER_MODE", "1", 0);
     if (clGetPlatformIDs(0, nullptr, &count) != CL_SUCCESS || count == 0) return found;
     std::vector<cl_platform_id> platforms(count);
     if (clGetPlatformIDs(count, platforms.data(), nullptr) != CL_SUCCESS) return found;
