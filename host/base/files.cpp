@@ -31,17 +31,21 @@ std::vector<std::uint8_t> read_file(const fs::path& path, std::uint64_t cap) {
     Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
     if (file.fd < 0) throw Error(Exit::scene, "Cannot open " + path.string() + ": " + reason() + ".");
     struct stat status {};
-    if (::fstat(file.fd, &status) != 0) throw Error(Exit::scene, "Cannot stat " + path.string() + ": " + reason() + ".");
+    if (::fstat(file.fd, &status) != 0)
+        throw Error(Exit::scene, "Cannot stat " + path.string() + ": " + reason() + ".");
     if (!S_ISREG(status.st_mode)) throw Error(Exit::scene, path.string() + " is not a regular file.");
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > cap)
-        throw Error(Exit::scene, path.string() + " has " + std::to_string(size) + " bytes; the limit is " + std::to_string(cap) + ".");
+        throw Error(Exit::scene, path.string() + " has " + std::to_string(size) + " bytes; the limit is " +
+                                     std::to_string(cap) + ".");
     std::vector<std::uint8_t> bytes(size);
     std::uint64_t done = 0;
     while (done < size) {
         const ssize_t n = ::read(file.fd, bytes.data() + done, size - done);
         if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) throw Error(Exit::scene, "Cannot read " + path.string() + ": " + (n < 0 ? reason() : "it became shorter") + ".");
+        if (n <= 0)
+            throw Error(Exit::scene, "Cannot read " + path.string() + ": " +
+                                         (n < 0 ? reason() : "it became shorter") + ".");
         done += static_cast<std::uint64_t>(n);
     }
     return bytes;
@@ -50,7 +54,8 @@ std::vector<std::uint8_t> read_file(const fs::path& path, std::uint64_t cap) {
 void write_aside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     // The extension stays last: image writers choose the format by it.
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    const fs::path aside = folder / ("." + path.stem().string() + ".part" + std::to_string(::getpid()) + path.extension().string());
+    const fs::path aside = folder / ("." + path.stem().string() + ".part" + std::to_string(::getpid()) +
+                                     path.extension().string());
     struct Cleanup {
         const fs::path& aside;
         ~Cleanup() {
@@ -58,9 +63,11 @@ void write_aside(const fs::path& path, const std::function<void(const fs::path&)
             fs::remove(aside, ignored);
         }
     } cleanup{aside};
-    if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path.string() + ": it is a folder.");
+    if (fs::is_directory(path))
+        throw Error(Exit::scene, "Cannot write " + path.string() + ": it is a folder.");
     std::error_code ignored;
-    if (const fs::file_status there = fs::status(path, ignored); fs::exists(there) && !fs::is_regular_file(there)) {
+    if (const fs::file_status there = fs::status(path, ignored);
+        fs::exists(there) && !fs::is_regular_file(there)) {
         write(path);  // a device or pipe is written to, not replaced
         return;
     }

@@ -10,16 +10,20 @@
 namespace triad {
 
 /// The bytes of a regular file of at most `cap` bytes. Throws Error(scene) that names the path otherwise.
-std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t cap = std::uint64_t(16) << 30);
+std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t cap = std::uint64_t(16)
+                                                                                           << 30);
 
-/// Calls write(temporary path in the same folder) and renames the result onto `path`; on any exception the temporary
-/// is removed and an older file at `path` stays as it was. An existing device or pipe is written to directly. Throws Error(scene) when the folder cannot be written.
-void write_aside(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
+/// Calls write(temporary path in the same folder) and renames the result onto `path`; on any exception the
+/// temporary is removed and an older file at `path` stays as it was. An existing device or pipe is written to
+/// directly. Throws Error(scene) when the folder cannot be written.
+void write_aside(const std::filesystem::path& path,
+                 const std::function<void(const std::filesystem::path&)>& write);
 
 /// write_aside of these bytes, checked to the last one (a full disk is an Error(scene)).
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// $XDG_CACHE_HOME/triad or ~/.cache/triad, created on demand; empty when neither can be had (then nothing is cached).
+/// $XDG_CACHE_HOME/triad or ~/.cache/triad, created on demand; empty when neither can be had (then nothing is
+/// cached).
 std::filesystem::path cache_folder();
 
 }  // namespace triad

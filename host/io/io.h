@@ -21,15 +21,16 @@ struct GltfReport {
     std::size_t nodes = 0, scenes = 0;
 };
 
-/// Reads .gltf or .glb, following the hard rules for untrusted files. Throws Error(scene) that names the object at
-/// fault, Error(unsupported) that names a required extension. Warnings are returned, not printed.
-Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice = {}, GltfReport* report = nullptr);
+/// Reads .gltf or .glb, following the hard rules for untrusted files. Throws Error(scene) that names the
+/// object at fault, Error(unsupported) that names a required extension. Warnings are returned, not printed.
+Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice = {},
+                GltfReport* report = nullptr);
 
 /// .hdr or .exr, lat-long. Throws Error(scene).
 EnvironmentMap load_environment(const std::filesystem::path& path);
 
-/// Decodes PNG, JPEG or WebP bytes to RGBA (colour profiles ignored, alpha unassociated). `name` is for messages.
-/// Throws Error(scene).
+/// Decodes PNG, JPEG or WebP bytes to RGBA (colour profiles ignored, alpha unassociated). `name` is for
+/// messages. Throws Error(scene).
 Image decode_image(const std::string& name, const std::vector<std::uint8_t>& bytes);
 
 /// A named float channel plane of a picture, row-major.
@@ -50,15 +51,17 @@ struct Picture {
     const Channel* find(const std::string& name) const;
 };
 
-/// EXR, float (or half: saturated at 65504, the number saturated is returned; depth, position and counts stay float).
-/// Scanlines, ZIP; the data window is the crop, the display window the full picture. Metadata become attributes of the
-/// same name: strings, but pbrt's names have pbrt's types. Written aside and renamed.
+/// EXR, float (or half: saturated at 65504, the number saturated is returned; depth, position and counts stay
+/// float). Scanlines, ZIP; the data window is the crop, the display window the full picture. Metadata become
+/// attributes of the same name: strings, but pbrt's names have pbrt's types. Written aside and renamed.
 std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half = false);
 /// The same file as bytes, for standard output.
-std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false, std::size_t* saturated = nullptr);
+std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false,
+                                     std::size_t* saturated = nullptr);
 
-/// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits in host order, alpha linear and unassociated) to
-/// .png or .jpg by extension. JPEG gets 8 bits, on black. Throws Error(usage) for another extension.
+/// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits in host order, alpha linear and
+/// unassociated) to .png or .jpg by extension. JPEG gets 8 bits, on black. Throws Error(usage) for another
+/// extension.
 struct EncodedPicture {
     unsigned width = 0, height = 0, channels = 3, bits = 8;
     std::vector<std::uint8_t> bytes;

@@ -198,8 +198,8 @@ Renderer::FeaturePlanes Renderer::feature_planes(unsigned samples) {
     for (int i = 0; i < 4; ++i) planes[i] = s.device.allocate(pixels * (i == 3 ? 1 : 3) * sizeof(float));
     Arguments arguments = s.scene.arguments;
     for (const Buffer& b : planes) arguments.add(b);
-    const std::size_t chunk =
-        std::max<std::size_t>(tile, std::min({s.items, (std::size_t(1) << 20) / samples, largest_launch}) / tile * tile);
+    const std::size_t chunk = std::max<std::size_t>(
+        tile, std::min({s.items, (std::size_t(1) << 20) / samples, largest_launch}) / tile * tile);
     for (std::size_t pixel = 0; pixel < s.items; pixel += chunk) {
         const std::size_t count = std::min(chunk, s.items - pixel);
         s.device.run(trace_features,

@@ -14,29 +14,30 @@ struct SampleRange {
     bool operator==(const SampleRange&) const = default;
 };
 
-/// Sums of samples in 64-bit fixed point: value = sum / 2^quanta_log2 / samples. Adding films is adding integers, so that
-/// merging any parts in any order gives the bytes of one run. Pixels are row-major over the crop.
+/// Sums of samples in 64-bit fixed point: value = sum / 2^quanta_log2 / samples. Adding films is adding
+/// integers, so that merging any parts in any order gives the bytes of one run. Pixels are row-major over the
+/// crop.
 struct Film {
-    unsigned full_width = 0, full_height = 0;       ///< of the picture
-    unsigned x = 0, y = 0, width = 0, height = 0;   ///< the crop that this film covers
+    unsigned full_width = 0, full_height = 0;      ///< of the picture
+    unsigned x = 0, y = 0, width = 0, height = 0;  ///< the crop that this film covers
     unsigned bins_x = 1, bins_y = 1;
     int quanta_log2 = 0;
-    std::vector<std::int64_t> sums;       ///< [pixel][bin row-major][R, G, B, alpha]
-    std::vector<std::int64_t> half_sums;  ///< [pixel][R, G, B]: samples of the first half only
-    std::vector<std::uint32_t> samples;   ///< per pixel, all bins together
-    std::vector<SampleRange> ranges;      ///< sorted, disjoint, coalesced: what every pixel holds
+    std::vector<std::int64_t> sums;           ///< [pixel][bin row-major][R, G, B, alpha]
+    std::vector<std::int64_t> half_sums;      ///< [pixel][R, G, B]: samples of the first half only
+    std::vector<std::uint32_t> samples;       ///< per pixel, all bins together
+    std::vector<SampleRange> ranges;          ///< sorted, disjoint, coalesced: what every pixel holds
     std::array<std::uint64_t, 5> counters{};  ///< COUNTER_* of kernels/types.h
-    std::string scene, settings;          ///< hashes; films merge only when both are equal
-    std::string settings_text;            ///< JSON of the settings that decide the picture
-    std::vector<std::string> devices;     ///< sorted, unique
+    std::string scene, settings;              ///< hashes; films merge only when both are equal
+    std::string settings_text;                ///< JSON of the settings that decide the picture
+    std::vector<std::string> devices;         ///< sorted, unique
 
     std::size_t pixels() const { return std::size_t(width) * height; }
     std::size_t bins() const { return std::size_t(bins_x) * bins_y; }
-    std::uint64_t sample_count() const;   ///< per pixel: the total length of ranges
+    std::uint64_t sample_count() const;  ///< per pixel: the total length of ranges
 };
 
-/// The union of the parts. Throws Error(scene) when they are of different pictures, Error(incomplete) when two ranges
-/// overlap (the sentence names the range). Holes are no error here: see holes().
+/// The union of the parts. Throws Error(scene) when they are of different pictures, Error(incomplete) when
+/// two ranges overlap (the sentence names the range). Holes are no error here: see holes().
 Film merge(std::span<const Film> parts);
 
 /// What is missing in [0, end).
@@ -45,13 +46,14 @@ std::vector<SampleRange> holes(const Film& film, std::uint64_t end);
 /// Mean radiance and alpha of pixel p, averaged over its bins with equal weight per bin.
 std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel);
 
-/// Variance of the mean of every pixel, [pixel][R, G, B], estimated without bias from its two halves; empty: not known
-/// yet (a half without samples).
+/// Variance of the mean of every pixel, [pixel][R, G, B], estimated without bias from its two halves; empty:
+/// not known yet (a half without samples).
 std::vector<float> mean_variance(const Film& film);
 
-/// Estimated relMSE of the picture: mean over pixels and channels of var / (r^2 + 0.01), where var is the variance of the
-/// pixel's mean, from its two independently scrambled halves, and r^2 is estimated so that noise in it does not bias the
-/// result (docs/film.md). Negative: not known yet (a half without samples). Costs tens of nanoseconds per pixel.
+/// Estimated relMSE of the picture: mean over pixels and channels of var / (r^2 + 0.01), where var is the
+/// variance of the pixel's mean, from its two independently scrambled halves, and r^2 is estimated so that
+/// noise in it does not bias the result (docs/film.md). Negative: not known yet (a half without samples).
+/// Costs tens of nanoseconds per pixel.
 double estimated_relmse(const Film& film);
 
 }  // namespace triad

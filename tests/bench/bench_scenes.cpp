@@ -9,7 +9,8 @@ namespace {
 
 /// The box with its front open, a light under the ceiling, two blocks: 36 triangles.
 BenchScene cornell() {
-    BenchScene scene{"cornell",    {},           {0.05f, 1.07f, 3.6f}, {0, 1, 0}, 0.4f, {-0.25f, 1.98f, -0.2f},
+    BenchScene scene{"cornell",    {},           {0.05f, 1.07f, 3.6f},
+                     {0, 1, 0},    0.4f,         {-0.25f, 1.98f, -0.2f},
                      {0.5f, 0, 0}, {0, 0, 0.4f}, 4.0f};
     Primitive& m = scene.mesh;
     shapes::append(m, shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
