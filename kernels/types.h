@@ -271,6 +271,19 @@ typedef struct Frame {
 } Frame;
 TRIAD_SIZE(Frame, 304);
 
+/* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first. The pixels of
+ * a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling decides for one set by what
+ * the other has found, so that no pixel's samples decide how many it gets (host/render/adaptive.h). */
+#define FILM_TILE 8
+#define FILM_TILE_PIXELS 64
+typedef struct TileWork {
+    uint tile; /* row-major over the crop */
+    uint first_sample[2];
+    uint sample_count[2];
+    uint unused[3];
+} TileWork;
+TRIAD_SIZE(TileWork, 32);
+
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4
 
@@ -281,6 +294,52 @@ TRIAD_SIZE(Frame, 304);
 #define COUNTER_TRUNCATED 3   /* paths cut by max_depth */
 #define COUNTER_CUT_ENERGY 4  /* sum of their throughput (luminance), in 1/65536 */
 #define COUNTERS 5
+
+/* ---- Recorded paths (kernels/shading/record.cl) ---------------------------------------------------------------- */
+
+/* How a direction was sampled: bits. */
+#define BSDF_NONE 0u
+#define BSDF_DIFFUSE 1u
+#define BSDF_GLOSSY 2u
+#define BSDF_DELTA 4u
+#define BSDF_TRANSMIT 8u /* together with GLOSSY or DELTA: wi is beyond the surface */
+
+/* Why a path ends at a vertex. */
+#define PATH_GOES_ON 0u
+#define PATH_LEFT_SCENE 1u
+#define PATH_UNLIT 2u     /* an unlit surface */
+#define PATH_LONGEST 3u   /* Frame.max_depth */
+#define PATH_ABSORBED 4u  /* no direction was sampled, or one that shading normals do not allow */
+#define PATH_ROULETTE 5u
+
+/* One vertex after the camera. Radiance is what reaches the camera. primitive TRIAD_NONE: the path left the scene, and
+ * `position` is its direction; material is TRIAD_NONE too. */
+typedef struct PathVertex {
+    float position[3]; /* rebased */
+    uint primitive;
+    uint instance;
+    uint material;
+    uint event; /* BSDF_* bits of the direction that goes on */
+    uint end;   /* PATH_* */
+    float found[3];  /* emission that the path hit here, or the environment */
+    uint light;      /* the Light that was sampled here and gave `direct`; TRIAD_NONE: none did */
+    float direct[3];
+    float throughput[3]; /* of what goes on, roulette included */
+    uint unused[2];
+} PathVertex;
+TRIAD_SIZE(PathVertex, 80);
+
+/* Vertices that are kept of a path; what later ones give is added to the last one's. */
+#define PATH_VERTICES 64
+
+typedef struct PathRecord {
+    float value[4]; /* radiance and alpha, before the film's fixed point */
+    uint vertices;  /* of the path, kept or not */
+    uint rays;
+    uint bin;
+    uint half_index;
+} PathRecord;
+TRIAD_SIZE(PathRecord, 32);
 
 /* Tone maps of kernels/subpixel/tone_map.h */
 #define TONE_MAP_NONE 0u

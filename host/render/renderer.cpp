@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/hash.h"
@@ -18,11 +19,9 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 
 constexpr double launch_seconds =
     0.05;  ///< watchdogs, cancelling and progress want short launches, overhead long ones
-/// Work-items of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
+/// Tiles of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
 /// there is one program for everything, and compiling is over before rendering begins.
-constexpr std::size_t largest_launch = 65535 / 64 * 64;
-constexpr std::size_t tile =
-    64;  ///< pixels of a tile of 8 x 8: the unit of sample_pixel() in kernels/shading/sample.h
+constexpr std::size_t largest_launch = 65535 / FILM_TILE_PIXELS;
 
 void check(const RenderSettings& s) {
     auto refuse = [](const std::string& what) { throw Error(Exit::usage, what); };
@@ -48,7 +47,8 @@ struct Renderer::State {
     Features features;
     Kernel trace_paths;
     Buffer sums, half_sums, samples, counters;
-    std::size_t items = 0;  ///< pixels of the crop, padded to whole tiles
+    Buffer work;            ///< of a pass: one dev::TileWork for every tile
+    std::size_t tiles = 0;  ///< of the crop
     Film film;              ///< without the arrays
     double build_seconds = 0, compile_seconds = 0;
     double items_per_second = 0;  ///< samples, measured over the last launches
@@ -59,15 +59,16 @@ struct Renderer::State {
         return Arguments().add(scene.arguments).add(sums).add(half_sums).add(samples).add(counters);
     }
 
-    void launch(std::size_t first_pixel, std::size_t pixels, std::uint64_t first_sample, unsigned count) {
+    /// Renders work[first, first + count), whose samples are counted from first_sample.
+    void launch(std::size_t first, std::size_t count, std::uint64_t first_sample) {
         device.run(trace_paths,
                    film_arguments()
-                       .add(std::uint32_t(first_pixel))
-                       .add(std::uint32_t(pixels))
+                       .add(work)
+                       .add(std::uint32_t(first))
+                       .add(std::uint32_t(count))
                        .add(std::uint32_t(first_sample))
-                       .add(std::uint32_t(first_sample >> 32))
-                       .add(std::uint32_t(count)),
-                   pixels);
+                       .add(std::uint32_t(first_sample >> 32)),
+                   count * FILM_TILE_PIXELS);
     }
 
     void clear_film() {
@@ -84,19 +85,22 @@ struct Renderer::State {
 
     /// One pass: samples [first, first + count) of every pixel, in launches of about launch_seconds.
     void pass(std::uint64_t first, unsigned count) {
-        for (std::size_t pixel = 0; pixel < items;) {
-            const double fit = items_per_second * launch_seconds / count;
+        std::vector<dev::TileWork> all(tiles);
+        for (std::size_t t = 0; t < tiles; ++t) all[t] = {std::uint32_t(t), {0, 0}, {count, count}, {}};
+        device.write(work, all.data(), tiles * sizeof(dev::TileWork));
+        for (std::size_t tile = 0; tile < tiles;) {
+            const double fit = items_per_second * launch_seconds / count / FILM_TILE_PIXELS;
             const std::size_t wanted =
-                items_per_second > 0 ? static_cast<std::size_t>(std::max(fit, 1.0)) : 16 * tile;
-            const std::size_t pixels =
-                std::min({items - pixel, (wanted + tile - 1) / tile * tile, largest_launch});
+                items_per_second > 0 ? static_cast<std::size_t>(std::max(std::ceil(fit), 1.0)) : 16;
+            const std::size_t n = std::min({tiles - tile, wanted, largest_launch});
             const auto start = Clock::now();
-            launch(pixel, pixels, first, count);
+            launch(tile, n, first);
             device.finish();
-            const double rate = static_cast<double>(pixels) * count / std::max(since(start), 1e-6);
+            const double samples = static_cast<double>(n) * FILM_TILE_PIXELS * count;
+            const double rate = samples / std::max(since(start), 1e-6);
             // Small launches are dominated by overhead and must not make the next ones smaller still.
             items_per_second = items_per_second > 0 ? std::max(0.5 * (items_per_second + rate), rate) : rate;
-            pixel += pixels;
+            tile += n;
         }
     }
 
@@ -130,19 +134,21 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     f.settings_text = text_of(settings);
     f.settings = Hash().add(f.settings_text).hex();
     f.devices = {device.info().name + ", " + device.info().driver};
-    const std::size_t tiles = std::size_t((f.width + 7) / 8) * ((f.height + 7) / 8);
-    s.items = tiles * tile;
+    s.tiles = std::size_t((f.width + FILM_TILE - 1) / FILM_TILE) * ((f.height + FILM_TILE - 1) / FILM_TILE);
     s.sums = device.allocate(f.pixels() * f.bins() * FILM_CHANNELS * sizeof(std::int64_t));
     s.half_sums = device.allocate(f.pixels() * 3 * sizeof(std::int64_t));
     s.samples = device.allocate(f.pixels() * sizeof(std::uint32_t));
     s.counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
-    s.scene.bytes += s.sums.bytes() + s.half_sums.bytes() + s.samples.bytes();
+    s.work = device.allocate(s.tiles * sizeof(dev::TileWork));
+    s.scene.bytes += s.sums.bytes() + s.half_sums.bytes() + s.samples.bytes() + s.work.bytes();
 
     const auto compile_start = Clock::now();
     s.trace_paths = device.build("shading/path.cl", options_of(s.features)).kernel("trace_paths");
     // Some drivers generate code at the first launch: one tile, thrown away, keeps that out of render times.
     s.clear_film();
-    s.launch(0, tile, 0, 1);
+    const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
+    device.write(s.work, &first_tile, sizeof first_tile);
+    s.launch(0, 1, 0);
     device.finish();
     s.clear_film();
     s.compile_seconds = since(compile_start);
@@ -162,7 +168,8 @@ SampleRange Renderer::render(SampleRange range, const std::function<bool(const P
     std::uint64_t at = range.begin;
     while (at < range.end) {
         // A pass is as many samples as fit a launch; at least one, at most a quarter second's worth.
-        const double fit = s.items_per_second * 4 * launch_seconds / static_cast<double>(s.items);
+        const double fit =
+            s.items_per_second * 4 * launch_seconds / static_cast<double>(s.tiles * FILM_TILE_PIXELS);
         const std::uint64_t count = std::clamp<std::uint64_t>(static_cast<std::uint64_t>(fit), 1,
                                                               std::min<std::uint64_t>(range.end - at, 256));
         s.pass(at, static_cast<unsigned>(count));
@@ -198,10 +205,12 @@ Renderer::FeaturePlanes Renderer::feature_planes(unsigned samples) {
     for (int i = 0; i < 4; ++i) planes[i] = s.device.allocate(pixels * (i == 3 ? 1 : 3) * sizeof(float));
     Arguments arguments = s.scene.arguments;
     for (const Buffer& b : planes) arguments.add(b);
-    const std::size_t chunk = std::max<std::size_t>(
-        tile, std::min({s.items, (std::size_t(1) << 20) / samples, largest_launch}) / tile * tile);
-    for (std::size_t pixel = 0; pixel < s.items; pixel += chunk) {
-        const std::size_t count = std::min(chunk, s.items - pixel);
+    const std::size_t items = s.tiles * FILM_TILE_PIXELS;
+    const std::size_t chunk =
+        std::clamp<std::size_t>((std::size_t(1) << 20) / samples / FILM_TILE_PIXELS, 1, largest_launch) *
+        FILM_TILE_PIXELS;
+    for (std::size_t pixel = 0; pixel < items; pixel += chunk) {
+        const std::size_t count = std::min(chunk, items - pixel);
         s.device.run(trace_features,
                      Arguments()
                          .add(arguments)

@@ -16,12 +16,6 @@
 #include "shading/fresnel.h"
 #include "shading/ggx.h"
 
-#define BSDF_NONE 0u
-#define BSDF_DIFFUSE 1u
-#define BSDF_GLOSSY 2u
-#define BSDF_DELTA 4u
-#define BSDF_TRANSMIT 8u /* together with GLOSSY or DELTA: wi is beyond the surface */
-
 /* Below this a lobe is a mirror: float directions cannot resolve it. */
 #define BSDF_SMOOTH_ALPHA 1e-3f
 /* A body whose index differs from 1 by less is taken as smooth: its roughness would blur what is behind by

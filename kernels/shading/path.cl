@@ -7,6 +7,7 @@
 #include "shading/bsdf.h"
 #include "shading/coverage.h"
 #include "shading/light.h"
+#include "shading/record.h"
 #include "shading/sample.h"
 #include "shading/surface.h"
 #include "subpixel/film.h"
@@ -24,6 +25,7 @@
 /* What one work-item counts, in registers, for COUNTER_*. */
 typedef struct Tally {
     uint rays, not_finite, saturated, truncated, cut_energy;
+    RECORD(Recorder recorder;)
 } Tally;
 
 TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
@@ -123,6 +125,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         ++tally->rays;
         const float3 wo = -(float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
         if (hit.primitive == TRIAD_NONE) {
+            RECORD(record_vertex(&tally->recorder, edge, -wo, &hit, TRIAD_NONE);)
+            RECORD(record_end(&tally->recorder, edge, PATH_LEFT_SCENE);)
             if (straight && frame->transparent) {
                 /* weights above 1 make up for paths that ended in a surface: no clamping */
                 alpha = 1.0f - math_average(throughput) / body_scale;
@@ -130,11 +134,14 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
             }
             float light_pdf;
             const float3 sky = environment_radiance(scene, -wo, &light_pdf);
-            radiance += throughput * sky * (pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f);
+            const float3 found = throughput * sky * (pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f);
+            radiance += found;
+            RECORD(record_found(&tally->recorder, edge, found);)
             break;
         }
 
         const Surface s = surface_make(scene, &hit);
+        RECORD(record_vertex(&tally->recorder, edge, s.position, &hit, s.material);)
         global const Material* material = scene->materials + s.material;
         const uint flags = material->flags;
         const int back = math_dot(wo, s.geometric_normal) < 0.0f;
@@ -149,7 +156,10 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
 #if TRIAD_UNLIT
         if (flags &
             MATERIAL_UNLIT) { /* shows its colour to the camera, directly or in mirrors; black to all else */
-            if (specular) radiance += throughput * s.base_colour;
+            const float3 found = specular ? throughput * s.base_colour : (float3)(0.0f);
+            radiance += found;
+            RECORD(record_found(&tally->recorder, edge, found);)
+            RECORD(record_end(&tally->recorder, edge, PATH_UNLIT);)
             break;
         }
 #endif
@@ -164,12 +174,15 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                     power_heuristic(1.0f / (pdf * light_triangle_inverse_pdf(&light, 1.0f / (hit.t * hit.t),
                                                                              math_dot(ng, wo))));
             }
-            radiance += throughput * surface_emission(scene, material, s.uv0, s.uv1) * weight;
+            const float3 found = throughput * surface_emission(scene, material, s.uv0, s.uv1) * weight;
+            radiance += found;
+            RECORD(record_found(&tally->recorder, edge, found);)
         }
 #endif
         if (edge == max_depth) {
             ++tally->truncated;
             tally->cut_energy += (uint)(math_min(math_luminance(throughput), 65535.0f) * 65536.0f);
+            RECORD(record_end(&tally->recorder, edge, PATH_LONGEST);)
             break;
         }
 
@@ -223,12 +236,16 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                         const Ray shadow = light.distant ? path_spawn(&s, away, &hit, light.direction)
                                                          : path_spawn_to(&s, away, &hit, light.target);
                         ++tally->rays;
-                        if (!traverse_occluded(&traversal, shadow)) radiance += direct;
+                        if (!traverse_occluded(&traversal, shadow)) {
+                            radiance += direct;
+                            RECORD(record_direct(&tally->recorder, edge, direct, scene, u.x.s2);)
+                        }
                     }
                 }
             }
         }
 
+        RECORD(record_end(&tally->recorder, edge, PATH_ABSORBED);)
         const BsdfSample sample = bsdf_sample(&bsdf, wo_local, random_float(u.x.s1),
                                               (float2)(random_float(u.x.s0), random_float(u.y.s0)));
         if (sample.event == BSDF_NONE) break;
@@ -248,29 +265,39 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
 
         const float most = edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
         const float survive = math_min(math_max3(throughput) * (1.0f / ROULETTE_BELOW) / body_scale, most);
+        RECORD(record_end(&tally->recorder, edge, PATH_ROULETTE);)
         if (!(random_float(u.y.s1) < survive)) break;
         throughput *= 1.0f / survive;
+        RECORD(record_end(&tally->recorder, edge, PATH_GOES_ON);)
+        RECORD(record_event(&tally->recorder, edge, sample.event, throughput);)
         ray = path_spawn(&s, side > 0.0f ? ng : -ng, &hit, direction);
     }
     return (float4)(radiance, alpha);
 }
 
-/* Adds samples [first_sample, first_sample + sample_count) of pixels [first_pixel, first_pixel +
- * pixel_count), numbered as in sample_pixel, to the film. */
+/* What a pixel (x, y) of the crop is called by its samples: its index in the full picture. */
+TRIAD_FUNCTION uint film_pixel(const Frame* frame, uint x, uint y) {
+    return (frame->crop[1] + y) * (uint)frame->camera.pixels[0] + frame->crop[0] + x;
+}
+
+#if !TRIAD_RECORD
+/* Adds to the film the samples that work[first_work, first_work + work_count) names, from first_sample on. */
 kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_sums, global uint* samples,
-                        volatile global uint* counters, uint first_pixel, uint pixel_count,
-                        uint first_sample_low, uint first_sample_high, uint sample_count) {
+                        volatile global uint* counters, global const TileWork* work, uint first_work,
+                        uint work_count, uint first_sample_low, uint first_sample_high) {
     const size_t item = get_global_id(0);
-    if (item >= pixel_count) return;
+    if (item >= (size_t)work_count * FILM_TILE_PIXELS) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;
+    work += first_work + item / FILM_TILE_PIXELS;
     uint x, y;
-    if (!sample_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
-    const uint full_pixel =
-        (local_frame.crop[1] + y) * (uint)local_frame.camera.pixels[0] + local_frame.crop[0] + x;
+    if (!sample_pixel(local_frame.crop, work->tile * FILM_TILE_PIXELS + item % FILM_TILE_PIXELS, &x, &y))
+        return;
+    const uint set = (x ^ y) & 1u, sample_count = work->sample_count[set];
+    const uint full_pixel = film_pixel(&local_frame, x, y);
     const size_t pixel = (size_t)y * local_frame.crop[2] + x;
     const uint bins = local_frame.bins[0] * local_frame.bins[1];
-    const ulong first = ((ulong)first_sample_high << 32) | first_sample_low;
+    const ulong first = (((ulong)first_sample_high << 32) | first_sample_low) + work->first_sample[set];
     Tally tally = {0u, 0u, 0u, 0u, 0u};
     for (uint i = 0u; i < sample_count; ++i) {
         const SampleName name = sample_name(&local_frame, full_pixel, first + i);
@@ -302,3 +329,4 @@ kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_s
     counter_add(counters, COUNTER_TRUNCATED, tally.truncated);
     counter_add(counters, COUNTER_CUT_ENERGY, tally.cut_energy);
 }
+#endif
