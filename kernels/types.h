@@ -215,6 +215,19 @@ typedef struct CdfShape {
 } CdfShape;
 TRIAD_SIZE(CdfShape, 40);
 
+/* The columns of the environment's rows: 16-bit trees of 32 children, level by level from the top, the rows of a level
+ * one after the other, so that the upper levels of all rows stay in the cache. An entry is the last of the 65536 equal
+ * shares of its row that belongs to it or to what comes before it; every column has one share at least. */
+#define COLUMNS_FANOUT 32u
+#define COLUMNS_LEVELS 3 /* up to 32768 columns */
+typedef struct ColumnsShape {
+    uint levels;
+    uint first[COLUMNS_LEVELS];  /* of a level, in ushorts */
+    uint stride[COLUMNS_LEVELS]; /* of a row in a level: a multiple of COLUMNS_FANOUT */
+    uint size;                   /* of all, in ushorts */
+} ColumnsShape;
+TRIAD_SIZE(ColumnsShape, 32);
+
 /* A texel of the environment and the solid-angle density of drawing a direction in it. */
 #define ENVIRONMENT_FLOAT 0u /* float[4]: R, G, B, density */
 #define ENVIRONMENT_RGBE 1u  /* uint[2]: 8-bit R, G, B from the low byte, times 2^(top byte - 127); density */
@@ -226,12 +239,13 @@ typedef struct Environment {
     uint light; /* its Light, or TRIAD_NONE when it emits nothing */
     float strength;
     float rotate_cos, rotate_sin; /* map direction = (c x + s z, y, -s x + c z) of world direction */
-    CdfShape rows, columns; /* one tree over rows, one tree per row over columns */
+    CdfShape rows;
+    ColumnsShape columns;
     float colour[4];        /* used when width is 0 */
     uint format;
     uint unused;
 } Environment;
-TRIAD_SIZE(Environment, 128);
+TRIAD_SIZE(Environment, 120);
 
 /* ---- Camera and film -------------------------------------------------------------------------------------------------- */
 
@@ -269,7 +283,7 @@ typedef struct Frame {
     CdfShape lights; /* the tree that lights are picked by */
     uint unused[2];
 } Frame;
-TRIAD_SIZE(Frame, 304);
+TRIAD_SIZE(Frame, 296);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first. The pixels of
  * a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling decides for one set by what

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "render/pack.h"
@@ -43,6 +44,49 @@ void write_cdf_tree(const dev::CdfShape& shape, std::span<const std::uint32_t> b
     for (std::uint32_t level = shape.levels; level-- > 0; step *= 8)
         for (std::size_t i = 0; i * step < bounds.size() && (i * step + 1 < bounds.size() || step == 1); ++i)
             out[shape.first[level] + i] = bounds[i * step];
+}
+
+dev::ColumnsShape columns_shape(std::size_t w, std::size_t h) {
+    dev::ColumnsShape shape{};
+    std::vector<std::size_t> sizes;  // from the columns up
+    do {
+        const std::size_t n = sizes.empty() ? w : sizes.back() / COLUMNS_FANOUT;
+        sizes.push_back((n + COLUMNS_FANOUT - 1) / COLUMNS_FANOUT * COLUMNS_FANOUT);
+    } while (sizes.back() > COLUMNS_FANOUT);
+    if (sizes.size() > COLUMNS_LEVELS)
+        throw Error(Exit::scene,
+                    "The environment map is " + std::to_string(w) + " pixels wide; at most 32768 are read.");
+    for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) {
+        shape.first[shape.levels] = shape.size;
+        shape.stride[shape.levels++] = static_cast<std::uint32_t>(*size);
+        shape.size += static_cast<std::uint32_t>(*size * h);
+    }
+    return shape;
+}
+
+std::vector<std::uint32_t> column_shares(std::span<const double> weights) {
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double rest = 65536.0 - double(weights.size());
+    std::vector<std::uint32_t> bounds(weights.size() + 1);
+    double sum = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        sum += weights[i];
+        const double share = total > 0 ? std::min(sum / total, 1.0) : double(i + 1) / double(weights.size());
+        bounds[i + 1] = static_cast<std::uint32_t>(double(i + 1) + std::floor(share * rest + 0.5));
+    }
+    bounds.back() = 65536;
+    return bounds;
+}
+
+void write_columns(const dev::ColumnsShape& shape, std::size_t row, std::span<const std::uint32_t> bounds,
+                   std::uint16_t* out) {
+    std::size_t step = 1;
+    const std::size_t columns = bounds.size() - 1;
+    for (std::uint32_t level = shape.levels; level-- > 0; step *= COLUMNS_FANOUT) {
+        std::uint16_t* entries = out + shape.first[level] + row * shape.stride[level];
+        for (std::size_t i = 0; i * step < columns; ++i)
+            entries[i] = static_cast<std::uint16_t>(bounds[std::min((i + 1) * step, columns)] - 1);
+    }
 }
 
 }  // namespace triad

@@ -35,7 +35,8 @@ struct PackedScene {
     std::vector<dev::Light> lights;
     std::vector<std::uint32_t> light_cdf;
     std::vector<float> env_cosines;
-    std::vector<std::uint32_t> env_texels, env_rows, env_columns;
+    std::vector<std::uint32_t> env_texels, env_rows;
+    std::vector<std::uint16_t> env_columns;
     dev::CdfShape light_shape{};
     dev::Environment environment{};
 };
@@ -63,6 +64,16 @@ std::vector<std::uint32_t> integer_cdf(std::span<const double> weights);
 dev::CdfShape cdf_shape(std::size_t n);
 /// Writes the tree of integer_cdf()'s bounds to out[0, shape.size).
 void write_cdf_tree(const dev::CdfShape& shape, std::span<const std::uint32_t> bounds, std::uint32_t* out);
+
+/// The layout of the trees over the columns of a map; throws Error(scene) when it is wider than
+/// COLUMNS_FANOUT^COLUMNS_LEVELS.
+dev::ColumnsShape columns_shape(std::size_t width, std::size_t height);
+/// Bounds of the columns of a row in shares of 1 / 65536: one for each column, the others by weight (the share of the
+/// uniform part grows with the width: 1.6 % at 1024 columns, 12.5 % at 8192). Size + 1 values, first 0, last 65536.
+std::vector<std::uint32_t> column_shares(std::span<const double> weights);
+/// Writes the tree of a row; `out` is of shape.size, filled with 0xffff before the first.
+void write_columns(const dev::ColumnsShape& shape, std::size_t row, std::span<const std::uint32_t> bounds,
+                   std::uint16_t* out);
 
 /// The sRGB transfer function's inverse (IEC 61966-2-1).
 double srgb_decode(double encoded);

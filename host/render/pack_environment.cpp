@@ -65,7 +65,7 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     e.width = map.width;
     e.height = map.height;
     e.rows = cdf_shape(h);
-    e.columns = cdf_shape(w);
+    e.columns = columns_shape(w, h);
     for (std::size_t y = 0; y <= h; ++y)
         packed.env_cosines.push_back(
             static_cast<float>(std::cos(pi * static_cast<double>(y) / static_cast<double>(h))));
@@ -91,7 +91,7 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
                     (luminance[(x + w - 1) % w] + 6.0 * luminance[x] + luminance[(x + 1) % w]) / 8.0;
         }
     });
-    packed.env_columns.resize(h * e.columns.size);
+    packed.env_columns.assign(e.columns.size, 0xffff);
     parallel_for(h, 16, [&](std::size_t begin, std::size_t end) {
         std::vector<double> weights(w);
         for (std::size_t y = begin; y < end; ++y) {
@@ -102,11 +102,11 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
                 sum += weights[x];
             }
             row_weight[y] = sum * solid_angle(y);
-            const std::vector<std::uint32_t> cdf = integer_cdf(weights);
-            write_cdf_tree(e.columns, cdf, packed.env_columns.data() + y * e.columns.size);
+            const std::vector<std::uint32_t> shares = column_shares(weights);
+            write_columns(e.columns, y, shares, packed.env_columns.data());
             for (std::size_t x = 0; x < w; ++x)
                 densities[y * w + x] =
-                    static_cast<float>((cdf[x + 1] - cdf[x]) / 4294967296.0 / solid_angle(y));
+                    static_cast<float>((shares[x + 1] - shares[x]) / 65536.0 / solid_angle(y));
         }
     });
     const std::vector<std::uint32_t> rows = integer_cdf(row_weight);

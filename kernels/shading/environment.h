@@ -1,7 +1,7 @@
-/* The environment light: a lat-long map, sampled by rows and columns through integer CDFs. A cell is drawn
- * with probability (difference of its bounds) / 2^32 exactly, so that the pdf comes from the same integers:
- * no cell of probability zero is ever drawn, and no sum of floats saturates. Within a cell, directions are
- * uniform in solid angle. */
+/* The environment light: a lat-long map, sampled by rows and columns through integer CDFs. A row is drawn
+ * with probability (difference of its bounds) / 2^32, a column of it with (its shares) / 2^16, exactly, so
+ * that the pdf comes from the same integers: no row of probability zero is ever drawn, and no sum of floats
+ * saturates. Within a cell, directions are uniform in solid angle. */
 #ifndef TRIAD_SHADING_ENVIRONMENT_H
 #define TRIAD_SHADING_ENVIRONMENT_H
 
@@ -64,16 +64,62 @@ TRIAD_FUNCTION float3 environment_lookup(const Scene* scene, const Environment* 
     return (top + (bottom - top) * ay).xyz * e->strength;
 }
 
+/* Asks for the texels of environment_lookup. */
+TRIAD_FUNCTION void environment_prefetch_texels(const Scene* scene, const Environment* e, float2 uv) {
+    const uint x = (uint)(uv.x * (float)e->width), y = (uint)(uv.y * (float)e->height);
+    const uint words = e->format == ENVIRONMENT_FLOAT ? 4u : 2u;
+    global const uint* texel = scene->env_texels + words * ((size_t)y * e->width + x);
+    TRIAD_PREFETCH(texel);
+    TRIAD_PREFETCH(texel + words * e->width);
+}
+
+/* How many of COLUMNS_FANOUT shares are below `share`. */
+TRIAD_FUNCTION uint columns_below(global const ushort* entries, ushort share) {
+    const ulong2 a = as_ulong2(convert_char16(vload16(0, entries) < (ushort16)(share)));
+    const ulong2 b = as_ulong2(convert_char16(vload16(1, entries) < (ushort16)(share)));
+    return (uint)(popcount(a.x) + popcount(a.y) + popcount(b.x) + popcount(b.y)) >> 3;
+}
+
+TRIAD_FUNCTION global const ushort* columns_level(const Scene* scene, uint row, uint level) {
+    global const ColumnsShape* shape = &scene->frame->environment.columns;
+    return scene->env_columns + shape->first[level] + row * shape->stride[level];
+}
+
+/* The child that holds the share u / 2^16, after some levels of a row's tree. */
+TRIAD_FUNCTION uint columns_descend(const Scene* scene, uint row, uint u, uint levels) {
+    uint i = 0u;
+    for (uint level = 0u; level < levels; ++level)
+        i = COLUMNS_FANOUT * i +
+            columns_below(columns_level(scene, row, level) + COLUMNS_FANOUT * i, (ushort)(u >> 16));
+    return i;
+}
+
+/* The row that u draws. */
+TRIAD_FUNCTION uint environment_row(const Scene* scene, uint u, float* fraction) {
+    float unused;
+    return cdf_find(&scene->frame->environment.rows, scene->env_rows, u, fraction, &unused);
+}
+
+/* Asks for what environment_sample(u) will read last and wait for longest. */
+TRIAD_FUNCTION void environment_prefetch_columns(const Scene* scene, uint2 u) {
+    float unused;
+    const uint row = environment_row(scene, u.y, &unused),
+               last = scene->frame->environment.columns.levels - 1u;
+    const uint group = columns_descend(scene, row, u.x, last);
+    TRIAD_PREFETCH(columns_level(scene, row, last) + COLUMNS_FANOUT * group);
+}
+
 /* Draws a direction from two uniform integers; returns its map coordinates. */
 TRIAD_FUNCTION float3 environment_sample(const Scene* scene, const Environment* e, uint2 u, float2* uv) {
-    global const Environment* shapes = &scene->frame->environment;
-    float fraction_row, fraction_column, unused;
-    const uint row = cdf_find(&shapes->rows, scene->env_rows, u.y, &fraction_row, &unused);
-    const uint column = cdf_find(&shapes->columns, scene->env_columns + (size_t)row * shapes->columns.size,
-                                 u.x, &fraction_column, &unused);
+    float row_fraction;
+    const uint row = environment_row(scene, u.y, &row_fraction);
     const float c0 = scene->env_cosines[row], c1 = scene->env_cosines[row + 1u];
-    const float y = c0 + (c1 - c0) * fraction_row;
-    uv->x = ((float)column + fraction_column) / (float)e->width;
+    const float y = c0 + (c1 - c0) * row_fraction;
+    const uint column = columns_descend(scene, row, u.x, e->columns.levels);
+    global const ushort* last = columns_level(scene, row, e->columns.levels - 1u);
+    const uint lo = column == 0u ? 0u : last[column - 1u] + 1u, hi = last[column] + 1u;
+    const float x_fraction = ((float)(u.x - (lo << 16)) + 0.5f) * 0x1.0p-16f / (float)(hi - lo);
+    uv->x = ((float)column + math_min(x_fraction, 0x1.fffffep-1f)) / (float)e->width;
     uv->y = math_acos(clamp(y, -1.0f, 1.0f)) * 0.31830988618f;
     const float s = sqrt((1.0f - y) * (1.0f + y));
     float sine, cosine;

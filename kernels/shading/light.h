@@ -117,6 +117,8 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
         s->direction = environment_sample(scene, &e, u, &s->uv);
+        s->weight = (float3)(1.0f);
+        environment_prefetch_texels(scene, &e, s->uv);
         s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
         s->distant = 1;
         return 1;
@@ -125,7 +127,8 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
     return 0;
 }
 
-/* The second half of light_sample, for directions that matter: maps are looked up here. */
+/* The second half of light_sample, for directions that nothing stands in the way of: maps are looked up here.
+ */
 TRIAD_FUNCTION int light_complete(const Scene* scene, LightSample* s) {
 #if TRIAD_ENVIRONMENT_MAP
     if (s->distant && s->inverse_pdf > 0.0f) {

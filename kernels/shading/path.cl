@@ -121,6 +121,11 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
 #if TRIAD_ALPHA_TEST
         coverage.ray = random_mix(sampler->key0 ^ sampler->index_reversed) + 2u * edge;
 #endif
+        const SamplerBlock u = sampler_block(sampler, edge);
+#if TRIAD_ENVIRONMENT_MAP
+        if (frame->environment.light != TRIAD_NONE)
+            environment_prefetch_columns(scene, (uint2)(u.x.s3, u.y.s3));
+#endif
         const Hit hit = traverse_closest(&traversal, ray);
         ++tally->rays;
         const float3 wo = -(float3)(ray.direction[0], ray.direction[1], ray.direction[2]);
@@ -201,7 +206,6 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         const ShadingFrame around = frame_make(ns);
         const float3 wo_local = frame_to_local(&around, wo);
         const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
-        const SamplerBlock u = sampler_block(sampler, edge);
 
         if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
             LightSample light;
@@ -216,11 +220,9 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                     light.inverse_pdf > 0.0f)
                     lit = 0;
 #endif
-                if (lit && light_complete(scene, &light)) {
+                if (lit) {
                     float bsdf_pdf;
-                    const float3 f = bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
-                    float3 direct =
-                        throughput * f * light.weight * power_heuristic(bsdf_pdf * light.inverse_pdf);
+                    float3 direct = throughput * bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
 #if TRIAD_TRANSMISSION
                     const uint around_light =
                         side < 0.0f ? path_body_beyond(flags, back, s.material, body) : body;
@@ -228,7 +230,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                         direct *= path_transmittance(scene->materials + around_light,
                                                      math_length(light.target - s.position));
 #endif
-                    if (math_max3(direct) > 0.0f) {
+                    if (math_max3(direct * light.weight) > 0.0f) {
                         const float3 away = side > 0.0f ? ng : -ng;
 #if TRIAD_ALPHA_TEST
                         coverage.ray += 1u;
@@ -236,7 +238,8 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                         const Ray shadow = light.distant ? path_spawn(&s, away, &hit, light.direction)
                                                          : path_spawn_to(&s, away, &hit, light.target);
                         ++tally->rays;
-                        if (!traverse_occluded(&traversal, shadow)) {
+                        if (!traverse_occluded(&traversal, shadow) && light_complete(scene, &light)) {
+                            direct *= light.weight * power_heuristic(bsdf_pdf * light.inverse_pdf);
                             radiance += direct;
                             RECORD(record_direct(&tally->recorder, edge, direct, scene, u.x.s2);)
                         }

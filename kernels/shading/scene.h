@@ -28,7 +28,7 @@ typedef struct Scene {
     global const uint* light_cdf;    /* tree of shape frame->lights */
     global const uint* env_texels;   /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */
     global const uint* env_rows;     /* tree of shape environment.rows */
-    global const uint* env_columns;  /* a tree of shape environment.columns for every row */
+    global const ushort* env_columns; /* trees of shape environment.columns */
     global const float* env_cosines; /* height + 1: cosine of the polar angle of the rows' borders */
 } Scene;
 
@@ -40,7 +40,7 @@ typedef struct Scene {
         global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels, \
         global const float *srgb, global const float *albedo, global const Light *lights,                 \
         global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,         \
-        global const uint *env_columns, global const float *env_cosines
+        global const ushort *env_columns, global const float *env_cosines
 
 #define SCENE_FROM_PARAMETERS                                                                               \
     {                                                                                                       \
