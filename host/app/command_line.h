@@ -14,6 +14,7 @@ namespace triad {
 void add_render(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 void add_devices(CLI::App& app, Exit& exit);
+void add_check(CLI::App& app, Exit& exit);
 void add_merge(CLI::App& app, Exit& exit);
 void add_resolve(CLI::App& app, Exit& exit);
 void add_compare(CLI::App& app, Exit& exit);

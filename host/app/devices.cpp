@@ -5,6 +5,7 @@
 
 #include "app/command_line.h"
 #include "app/report.h"
+#include "check/verdict.h"
 #include "device/device.h"
 
 namespace triad {
@@ -20,6 +21,13 @@ void print(const DeviceList& list) {
         std::printf("           %u compute units, %s (%s at once), correctly rounded divide %s, double %s\n",
                     d.compute_units, bytes_text(d.memory).c_str(), bytes_text(d.max_allocation).c_str(),
                     d.correctly_rounded ? "yes" : "no", d.fp64 ? "yes" : "no");
+        for (const std::string& setting : d.settings) std::printf("           %s\n", setting.c_str());
+        if (d.usable) {
+            const auto verdict = load_verdict(d);
+            std::printf("           %s\n", !verdict                 ? "not checked yet (triad check)"
+                                           : verdict->wrong.empty() ? "checked: right"
+                                                                    : "checked: WRONG (triad check)");
+        }
         if (!d.usable) std::printf("           UNUSABLE: %s\n", d.why_unusable.c_str());
     }
     for (const PlatformProblem& p : list.problems)

@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/parallel_for.h"
 #include "base/progress.h"
+#include "check/verdict.h"
 #include "kernels/types.h"
 #include "measure/tune.h"
 #include "render/renderer.h"
@@ -133,6 +134,7 @@ Exit run(RenderOptions o) {
     const double load_s = since(load_start);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     const std::size_t local = ensure_tuned(device);
+    require_right(ensure_checked(device), device.info(), o.force);
     detail("Device: " + device.info().name + ", driver " + device.info().driver + ", work-groups of " +
            std::to_string(local));
     Renderer renderer(device, scene, settings);

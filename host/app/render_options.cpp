@@ -137,6 +137,8 @@ void declare(CLI::App& command, RenderOptions& o) {
     command.add_option("--threads", o.threads, "Cores to use, here and on CPU devices (default 0: all)")
         ->type_name("N")
         ->group(machine_group);
+    command.add_flag("--force", o.force, "Render even on a device that triad check found wrong")
+        ->group(machine_group);
     command
         .add_option("--kernels", o.kernels_path, "Read kernel source from here instead of the copy inside")
         ->check(CLI::ExistingDirectory)

@@ -15,6 +15,7 @@ struct RenderOptions {
     std::string scene_path;  ///< empty: the built-in scene
     std::vector<std::string> outputs;
     std::string film_path, json_path, kernels_path;
+    bool force = false;  ///< render on a device that computes wrong answers
     std::optional<uvec2> size;
     std::optional<std::array<unsigned, 4>> crop;
     std::uint64_t spp = 64;

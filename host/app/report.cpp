@@ -54,7 +54,8 @@ Json to_json(const DeviceInfo& d) {
             {"int64_atomics", d.int64_atomics},
             {"usable", d.usable},
             {"preferred", d.preferred},
-            {"why_unusable", d.why_unusable}};
+            {"why_unusable", d.why_unusable},
+            {"settings", d.settings}};
 }
 
 void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows) {

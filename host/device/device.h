@@ -35,6 +35,7 @@ struct DeviceInfo {
     bool usable = false;
     bool preferred = false;    ///< what Triad chooses without --device
     std::string why_unusable;  ///< a sentence; empty when usable
+    std::vector<std::string> settings;  ///< of its driver, that make it right: what is set, and why
 };
 
 /// A platform that offers nothing, and why; for `triad devices`.
@@ -50,6 +51,10 @@ struct DeviceList {
 /// Every device of every platform, in the order of their indices. Never throws for a broken one: it is listed
 /// as unusable, or as a problem.
 DeviceList list_devices();
+
+/// A file of what is kept about a device with this driver, these settings and the kernels as they are now, in
+/// `folder` of the cache folder; empty when nothing can be kept.
+std::filesystem::path kept_path(const DeviceInfo& device, const std::string& folder);
 
 /// Work-group size that an earlier search on this device and driver found best for divergent kernels; none
 /// when there was no search for the kernels as they are now. Kept in the cache folder.

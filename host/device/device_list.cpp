@@ -8,6 +8,9 @@
 namespace triad::opencl {
 namespace {
 
+/// Of Intel's runtime for CPUs.
+constexpr const char* vectorizer_mode = "CL_CONFIG_CPU_VECTORIZER_MODE";
+
 /// A driver may fail any query: the text is empty then, the number zero, both legal answers.
 template <class Get, class Object, class What>
 std::string text_of(Get get, Object object, What what) {
@@ -79,6 +82,14 @@ DeviceInfo describe(cl_device_id device, const std::string& platform) {
     info.fp64 = extensions.find(" cl_khr_fp64 ") != std::string::npos;
     info.int64_atomics = extensions.find(" cl_khr_int64_base_atomics ") != std::string::npos;
     info.why_unusable = why_unusable(device, info);
+    const char* mode = std::getenv(vectorizer_mode);
+    if (platform.find("Intel") != std::string::npos && info.type == "cpu" && mode)
+        info.settings.push_back(std::string(vectorizer_mode) + "=" + mode +
+                                (mode == std::string("1")
+                                     ? " keeps this driver from vectorising across "
+                                       "work-items, where it computes wrong values"
+                                     : " is set by the user; 1 is what makes this driver "
+                                       "right"));
     info.usable = info.why_unusable.empty();
     return info;
 }
@@ -128,7 +139,7 @@ std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
     // Intel's runtime for CPUs reads this when it is loaded; no other driver knows it. Vectorising whole
     // kernels across work-items, its default, makes Triad's several times slower (their vectors lie within a
     // ray) and computes wrong values for some (docs/kernels.md). A value that the user has set stays.
-    ::setenv("CL_CONFIG_CPU_VECTORIZER_MODE", "1", 0);
+    ::setenv(vectorizer_mode, "1", 0);
     if (clGetPlatformIDs(0, nullptr, &count) != CL_SUCCESS || count == 0) return found;
     std::vector<cl_platform_id> platforms(count);
     if (clGetPlatformIDs(count, platforms.data(), nullptr) != CL_SUCCESS) return found;

@@ -13,17 +13,20 @@ namespace {
 
 constexpr const char* schema = "triad.tuned/1";
 
-/// One file per device, driver and kernels, so that two processes never edit the same file.
-fs::path tuned_path(const DeviceInfo& device) {
-    const fs::path folder = cache_folder();
-    if (folder.empty()) return {};
+fs::path tuned_path(const DeviceInfo& device) { return kept_path(device, "tuned"); }
+
+}  // namespace
+
+// One file per device, driver and kernels, so that two processes never edit the same file.
+fs::path kept_path(const DeviceInfo& device, const std::string& folder) {
+    const fs::path cache = cache_folder();
+    if (cache.empty()) return {};
     Hash key;
     for (const std::string& part : {device.platform, device.name, device.driver, kernel_source::hash()})
         key.add(part);
-    return folder / "tuned" / (key.hex() + ".json");
+    for (const std::string& setting : device.settings) key.add(setting);
+    return cache / folder / (key.hex() + ".json");
 }
-
-}  // namespace
 
 std::optional<std::size_t> load_tuned_local(const DeviceInfo& device) {
     const fs::path path = tuned_path(device);

@@ -9,12 +9,6 @@ namespace {
 
 const View down = orthographic({0, 0, 0}, {0, -1, 0}, 0.1, 0.4);
 
-Primitive square(double height, bool up, double half) {
-    const float h = static_cast<float>(half), y = static_cast<float>(height);
-    return up ? shapes::quad({-h, y, h}, {2 * h, 0, 0}, {0, 0, -2 * h})
-              : shapes::quad({-h, y, -h}, {2 * h, 0, 0}, {0, 0, 2 * h});
-}
-
 Film picture(const Scene& scene, bool transparent) {
     RenderSettings settings;
     settings.width = settings.height = 16;

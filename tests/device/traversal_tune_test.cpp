@@ -7,10 +7,11 @@
 #include <filesystem>
 
 #include "measure/tune.h"
-#include "traversal_fixture.h"
+#include "check/tracer.h"
+#include "device_fixture.h"
 
 using namespace triad;
-using namespace triad::traversal_test;
+using namespace triad::traversal_case;
 
 namespace {
 
@@ -39,7 +40,7 @@ TEST_F(TraversalTune, the_work_group_size_changes_no_bit) {
     World world;
     world.origin_reach = 2.0f;
     world.add(0, shapes::displaced_sphere(vec3(0.0f), 1.0f, 40, 30, 0.3f, 3.0f, 1));
-    const Tracer tracer(world);
+    const Tracer tracer(test_device(), world);
     Random random(1);
     std::vector<dev::Ray> rays;
     for (int i = 0; i < 5000; ++i) rays.push_back(ray(random.in_cube(0.5), random.direction()));

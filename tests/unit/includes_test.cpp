@@ -25,7 +25,8 @@ const std::map<std::string, Names> below = {
     {"panel", {"base"}},
     {"render", {"bvh", "device", "panel", "scene", "base"}},
     {"measure", {"render", "bvh", "device", "panel", "scene", "base"}},
-    {"app", {"measure", "render", "io", "bvh", "device", "panel", "scene", "base"}},
+    {"check", {"measure", "render", "bvh", "device", "panel", "scene", "base"}},
+    {"app", {"check", "measure", "render", "io", "bvh", "device", "panel", "scene", "base"}},
 };
 
 /// Packages with one owner: how their headers begin.

@@ -1,16 +1,11 @@
 // Direct light with a closed form: form factors, Lambert's polygon, punctual lights, the environment.
-#include <gtest/gtest.h>
+#include "check/cases.h"
+#include "check/picture.h"
 
-#include "analytic/analytic_scene.h"
-
-namespace triad::analytic {
+namespace triad {
 namespace {
 
-Primitive square(double height, bool up, double half = 0.5) {
-    const float h = static_cast<float>(half), y = static_cast<float>(height);
-    return up ? shapes::quad({-h, y, h}, {2 * h, 0, 0}, {0, 0, -2 * h})
-              : shapes::quad({-h, y, -h}, {2 * h, 0, 0}, {0, 0, 2 * h});
-}
+using namespace picture_case;
 
 Primitive disc(double height, bool up, double radius, unsigned segments = 2048) {
     Primitive p;
@@ -25,93 +20,95 @@ Primitive disc(double height, bool up, double radius, unsigned segments = 2048) 
     return p;
 }
 
-TEST(FormFactor, unit_squares_that_face_each_other_at_distance_1) {
+void facing_squares(Check& check) {
     // Lo = rho E / pi and E = pi L F: the mean over the receiver is F (D1).
     Builder b;
     b.add(square(0, true), lambert(1.0f)).add(square(1, false), emitter(1.0f));
     expect_closed_form(
-        "F",
-        measure(b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.5, 0.5), .spp = 256, .max_depth = 2}),
+        check, "F",
+        measure(check, b.scene,
+                {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.5, 0.5), .spp = 256, .max_depth = 2}),
         0.199824896, 1e-5);
 }
 
-TEST(FormFactor, unit_squares_at_distance_one_tenth) {
+void close_squares(Check& check) {
     Builder b;
     b.add(square(0, true), lambert(1.0f)).add(square(0.1, false), emitter(1.0f));
     expect_closed_form(
-        "F",
-        measure(b.scene,
+        check, "F",
+        measure(check, b.scene,
                 {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.5, 0.05), .spp = 1024, .max_depth = 2}),
         0.826994522, 1e-5);
 }
 
-TEST(FormFactor, squares_that_share_an_edge_at_a_right_angle) {
+void squares_with_a_common_edge(Check& check) {
     Builder b;
     b.add(shapes::quad({0, 0, 1}, {1, 0, 0}, {0, 0, -1}), lambert(1.0f));
     b.add(shapes::quad({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), emitter(1.0f));
     expect_closed_form(
-        "F",
-        measure(b.scene,
+        check, "F",
+        measure(check, b.scene,
                 {.view = orthographic({0.5, 0, 0.5}, {0, -1, 0}, 0.5, 2), .spp = 1024, .max_depth = 2}),
         0.200043776, 1e-5);
 }
 
-TEST(FormFactor, coaxial_unit_discs_at_distance_1) {
+void coaxial_discs(Check& check) {
     // Only pixels inside the disc receive; the square picture's mean is F times pi / 4.
     Builder b;
     b.add(disc(0, true, 1), lambert(1.0f)).add(disc(1, false, 1), emitter(1.0f));
     expect_closed_form(
-        "F",
+        check, "F",
         measure(
-            b.scene,
+            check, b.scene,
             {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1.0, 0.5), .size = 64, .spp = 64, .max_depth = 2}),
         0.381966011 * pi / 4, 1e-4);
 }
 
-TEST(Lambert, square_light_above_a_point) {
+void square_light(Check& check) {
     // D2: E / L = .752274688 below the centre; .419469706 at (.7, .2), where albedo .8 gives Lo = .106817083.
     Builder b;
     b.add(square(0, true, 2.0), lambert(0.8f)).add(square(1, false), emitter(1.0f));
     const Measured centre = measure(
-        b.scene,
+        check, b.scene,
         {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-3, 0.5), .size = 4, .spp = 4096, .max_depth = 2});
-    expect_closed_form("centre", centre, 0.8 * 0.752274688 / pi, 1e-5);
+    expect_closed_form(check, "centre", centre, 0.8 * 0.752274688 / pi, 1e-5);
     const Measured aside = measure(
-        b.scene,
+        check, b.scene,
         {.view = orthographic({0.7, 0, 0.2}, {0, -1, 0}, 1e-3, 0.5), .size = 4, .spp = 4096, .max_depth = 2});
-    expect_closed_form("aside", aside, 0.106817083, 1e-5);
+    expect_closed_form(check, "aside", aside, 0.106817083, 1e-5);
 }
 
-TEST(Lambert, sphere_light) {
+void sphere_light(Check& check) {
     // D2: E = pi L (R / d)^2, .196349541 for R = .5, d = 2; the inscribed polyhedron is smaller by about
     // 1e-4.
     Builder b;
     b.add(square(0, true, 1.0), lambert(1.0f))
         .add(shapes::lat_long_sphere({0, 2, 0}, 0.5f, 256, 128), emitter(1.0f));
     expect_closed_form(
-        "E",
+        check, "E",
         measure(
-            b.scene,
+            check, b.scene,
             {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-3, 1.0), .size = 4, .spp = 4096, .max_depth = 2}),
         0.196349541 / pi, 5e-4);
 }
 
-TEST(Punctual, point_light_follows_the_inverse_square) {
+void inverse_square(Check& check) {
     for (double height : {0.01, 1.0, 100.0}) {
         Builder b;
         b.add(square(0, true, 4 * height), lambert(0.5f));
         b.scene.lights.push_back(
             {.type = PunctualLight::Type::point, .position = {0, height, 0}, .colour = vec3(3.0f)});
-        const Measured m =
-            measure(b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-4 * height, 0.5 * height),
-                              .size = 4,
-                              .spp = 16,
-                              .max_depth = 2});
-        expect_closed_form("height " + std::to_string(height), m, 0.5 / pi * 3.0 / (height * height), 1e-5);
+        const Measured m = measure(check, b.scene,
+                                   {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-4 * height, 0.5 * height),
+                                    .size = 4,
+                                    .spp = 16,
+                                    .max_depth = 2});
+        expect_closed_form(check, "height " + std::to_string(height), m, 0.5 / pi * 3.0 / (height * height),
+                           1e-5);
     }
 }
 
-TEST(Punctual, range_cone_and_direction) {
+void range_cone_and_direction(Check& check) {
     Builder floor;
     floor.add(square(0, true, 4), lambert(1.0f));
     const Plan plan{
@@ -119,12 +116,12 @@ TEST(Punctual, range_cone_and_direction) {
     auto with = [&](PunctualLight light) {
         Scene scene = floor.scene;
         scene.lights.push_back(light);
-        return measure(scene, plan);
+        return measure(check, scene, plan);
     };
     using Type = PunctualLight::Type;
-    expect_closed_form("range", with({.type = Type::point, .position = {0, 1, 0}, .range = 2.0f}),
+    expect_closed_form(check, "range", with({.type = Type::point, .position = {0, 1, 0}, .range = 2.0f}),
                        (1.0 - 1.0 / 16.0) / pi, 1e-5);
-    expect_closed_form("directional",
+    expect_closed_form(check, "directional",
                        with({.type = Type::directional,
                              .direction = glm::normalize(dvec3(0.6, -0.8, 0)),
                              .colour = vec3(2.0f)}),
@@ -132,7 +129,7 @@ TEST(Punctual, range_cone_and_direction) {
     // Spot at 45 degrees off axis between cones of 30 and 60 degrees: attenuation is ((cos 45 - cos 60) /
     // (cos 30 - cos 60))^2.
     const double a = (std::cos(pi / 4) - 0.5) / (std::cos(pi / 6) - 0.5);
-    expect_closed_form("spot",
+    expect_closed_form(check, "spot",
                        with({.type = Type::spot,
                              .position = {0, 1, 0},
                              .direction = glm::normalize(dvec3(1, -1, 0)),
@@ -141,7 +138,7 @@ TEST(Punctual, range_cone_and_direction) {
                        a * a / pi, 1e-5);
 }
 
-TEST(Environment, lambert_sphere_returns_its_albedo) {
+void sphere_returns_its_albedo(Check& check) {
     // Every pixel of the picture is rho where the sphere is; the camera sees nothing else.
     Builder b;
     b.add(
@@ -152,17 +149,17 @@ TEST(Environment, lambert_sphere_returns_its_albedo) {
         }(),
         lambert(0.6f));
     b.scene.environment = EnvironmentMap{64, 32, std::vector<float>(64 * 32 * 3, 1.0f)};
-    expect_closed_form("constant map",
-                       measure(b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.6, 2), .spp = 64}),
-                       0.6, 1e-5);
+    expect_closed_form(
+        check, "constant map",
+        measure(check, b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.6, 2), .spp = 64}), 0.6, 1e-5);
     b.scene.environment.reset();
     expect_closed_form(
-        "constant sky",
-        measure(b.sky(1.0f).scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.6, 2), .spp = 64}), 0.6,
-        1e-5);
+        check, "constant sky",
+        measure(check, b.sky(1.0f).scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 0.6, 2), .spp = 64}),
+        0.6, 1e-5);
 }
 
-TEST(Environment, gradient_map_gives_its_cosine_integral) {
+void gradient_map(Check& check) {
     // L = 1 + y: a plane that faces up receives E = pi (1 + 2/3), one that faces down pi (1 - 2/3); rho = 1.
     EnvironmentMap map{256, 128, {}};
     for (unsigned y = 0; y < map.height; ++y)
@@ -171,15 +168,17 @@ TEST(Environment, gradient_map_gives_its_cosine_integral) {
     Builder up, down;
     up.add(square(0, true, 4), lambert(1.0f)).scene.environment = map;
     down.add(square(0, false, 4), lambert(1.0f)).scene.environment = map;
-    expect_closed_form("up",
-                       measure(up.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1, 1), .spp = 256}),
-                       1.0 + 2.0 / 3.0, 2e-4);
-    expect_closed_form("down",
-                       measure(down.scene, {.view = orthographic({0, 0, 0}, {0, 1, 0}, 1, 1), .spp = 256}),
-                       1.0 - 2.0 / 3.0, 2e-4);
+    expect_closed_form(
+        check, "up",
+        measure(check, up.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1, 1), .spp = 256}),
+        1.0 + 2.0 / 3.0, 2e-4);
+    expect_closed_form(
+        check, "down",
+        measure(check, down.scene, {.view = orthographic({0, 0, 0}, {0, 1, 0}, 1, 1), .spp = 256}),
+        1.0 - 2.0 / 3.0, 2e-4);
 }
 
-TEST(Environment, one_texel_of_sun_is_found_and_weighs_right) {
+void texel_of_sun(Check& check) {
     // C16: a texel of radiance 1e7 over nothing. E on a plane facing it = L omega cos.
     EnvironmentMap map{128, 64, std::vector<float>(128 * 64 * 3, 0.0f)};
     const unsigned row = 16, column = 40;
@@ -194,10 +193,31 @@ TEST(Environment, one_texel_of_sun_is_found_and_weighs_right) {
     }
     Builder b;
     b.add(square(0, true, 4), lambert(0.5f)).scene.environment = map;
-    expect_closed_form("sun",
-                       measure(b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1, 1), .spp = 256}),
-                       0.5 * e / pi, 1e-3);
+    expect_closed_form(
+        check, "sun",
+        measure(check, b.scene, {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1, 1), .spp = 256}),
+        0.5 * e / pi, 1e-3);
 }
 
 }  // namespace
-}  // namespace triad::analytic
+
+void add_radiometry(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(
+        cases.end(),
+        {
+            {"D1", "form factor of facing squares", quick, facing_squares},
+            {"D1b", "form factor of close squares", standard, close_squares},
+            {"D1c", "form factor of squares with a common edge", standard, squares_with_a_common_edge},
+            {"D1d", "form factor of coaxial discs", full, coaxial_discs},
+            {"D2", "irradiance of a square light", quick, square_light},
+            {"D2b", "irradiance of a sphere light", standard, sphere_light},
+            {"D2c", "point lights by the inverse square", standard, inverse_square},
+            {"D2d", "range, cone and direction of lights", standard, range_cone_and_direction},
+            {"E1", "constant environment on a sphere", quick, sphere_returns_its_albedo},
+            {"E2", "gradient of the environment", standard, gradient_map},
+            {"C16b", "one texel of sun lights a plane", quick, texel_of_sun},
+        });
+}
+
+}  // namespace triad

@@ -1,15 +1,16 @@
 #pragma once
-/// Rays against generated geometry on the test device, and the same in double precision by brute force.
+/// Rays against generated geometry on a device, and the same in double precision by brute force.
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "bvh/bvh.h"
-#include "device_fixture.h"
+#include "device/device.h"
+#include "kernels/types.h"
 #include "scene/shapes.h"
 
-namespace triad::traversal_test {
+namespace triad::traversal_case {
 
 /// Meshes as the traversal sees them: mesh 0 is flattened into the world (instance 0), mesh i > 0 may be
 /// placed.
@@ -49,7 +50,7 @@ inline void set_rows(const dmat4& m, float rows[12]) {
 /// A world on the device.
 class Tracer {
   public:
-    explicit Tracer(const World& world, const Options& options = {}) : device_(test_device()) {
+    Tracer(Device& device, const World& world, const Options& options = {}) : device_(device) {
         BvhPool pool;
         std::vector<std::uint32_t> roots(world.meshes.size());
         std::vector<Bounds> bounds(world.meshes.size());
@@ -198,4 +199,4 @@ inline Reference brute_force(const World& world, const dev::Ray& r) {
     return best;
 }
 
-}  // namespace triad::traversal_test
+}  // namespace triad::traversal_case

@@ -1,5 +1,5 @@
 #pragma once
-/// What the tests of the shading functions share: small kernels from source, and the chi-square test.
+/// What the cases on single functions share: small kernels from source, and the chi-square test.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "base/math.h"
-#include "device_fixture.h"
+#include "device/device.h"
 
 namespace triad {
 
 /// Runs one kernel of `source` over `count` items; its arguments are (out, `arguments`..., count).
 template <class T>
-std::vector<T> run_kernel(const std::string& source, const std::string& kernel, const Arguments& arguments,
-                          std::size_t count, std::size_t results_per_item = 1, const Options& options = {}) {
-    Device& device = test_device();
+std::vector<T> run_kernel(Device& device, const std::string& source, const std::string& kernel,
+                          const Arguments& arguments, std::size_t count, std::size_t results_per_item = 1,
+                          const Options& options = {}) {
     const Buffer out = device.allocate(count * results_per_item * sizeof(T));
     device.run(device.build_source(kernel + ".cl", source, options).kernel(kernel),
                Arguments().add(out).add(arguments).add(std::uint32_t(count)), count);
@@ -42,7 +42,12 @@ inline double chi_square_z(const std::vector<double>& counts, const std::vector<
     return (std::cbrt(chi2 / k) - (1 - 2 / (9 * k))) / std::sqrt(2 / (9 * k));
 }
 
-/// One-sided significance 2.9e-7 per test: below 1e-4 for all chi-square tests of this executable together.
+/// One-sided significance 2.9e-7 per test: below 1e-4 for all chi-square tests together, with fixed seeds.
 inline constexpr double chi_square_limit = 5;
+
+/// Edge of a square grid of at most `most` x `most` cells that expects 16 or more of `count` in each.
+inline int grid_edge(std::size_t count, int most) {
+    return std::clamp(int(std::sqrt(double(count) / 16)), 2, most);
+}
 
 }  // namespace triad

@@ -1,16 +1,16 @@
 // Fresnel factors, the GGX distribution and its albedo tables against double and closed forms.
-#include <gtest/gtest.h>
-
 #include <random>
 
+#include "check/cases.h"
+#include "check/kernels.h"
+#include "check/measurements.h"
 #include "render/albedo_tables.h"
-#include "shading_fixture.h"
 
-using namespace triad;
-
+namespace triad {
 namespace {
 
-std::vector<float> evaluate(const std::string& expression, const std::vector<std::array<float, 4>>& inputs) {
+std::vector<float> evaluate(Check& check, const std::string& expression,
+                            const std::vector<std::array<float, 4>>& inputs) {
     const std::string source = R"(#include "common/random.h"
 #include "shading/albedo.h"
 #include "shading/fresnel.h"
@@ -26,10 +26,10 @@ __kernel void evaluate(__global float* out, __global const float4* inputs, __glo
     out[i] = )" + expression + R"(;
 }
 )";
-    Device& device = test_device();
-    return run_kernel<float>(source, "evaluate",
-                             Arguments().add(device.upload(inputs)).add(device.upload(albedo_tables())),
-                             inputs.size());
+    return run_kernel<float>(
+        check.device, source, "evaluate",
+        Arguments().add(check.device.upload(inputs)).add(check.device.upload(albedo_tables())),
+        inputs.size());
 }
 
 double fresnel(double c, double eta) {
@@ -40,27 +40,28 @@ double fresnel(double c, double eta) {
     return 0.5 * (s * s + p * p);
 }
 
-TEST(Fresnel, agrees_with_double) {
+void fresnel_agrees_with_double(Check& check) {
     // C12: indices near 1 and total reflection
     std::vector<std::array<float, 4>> inputs;
     for (float n : {1.01f, 1.1f, 1.33f, 1.5f, 1.72825f, 2.417f, 4.0f})
         for (float eta : {n, 1 / n})
             for (int i = 0; i <= 4096; ++i) inputs.push_back({i / 4096.0f, eta});
-    const auto result = evaluate("fresnel_dielectric(v.x, v.y)", inputs);
+    const auto result = evaluate(check, "fresnel_dielectric(v.x, v.y)", inputs);
     double worst = 0;
     for (std::size_t i = 0; i < inputs.size(); ++i)
         worst = std::max(worst, std::abs(result[i] - fresnel(inputs[i][0], inputs[i][1])));
-    EXPECT_LE(worst, 3e-4);  // beside the critical angle, where the slope is infinite
+    check.at_most(worst, 3e-4, "Fresnel factor");  // beside the critical angle, where the slope is infinite
     // normal incidence keeps its digits down to tiny differences of index
     for (float eta : {1.001f, 1.01f, 1.5f, 1 / 1.5f}) {
         const double r = std::pow((double(eta) - 1) / (double(eta) + 1), 2);
-        EXPECT_NEAR(evaluate("fresnel_dielectric(v.x, v.y)", {{1, eta}})[0] / r, 1, 2e-6) << eta;
+        check.near(evaluate(check, "fresnel_dielectric(v.x, v.y)", {{1, eta}})[0] / r, 1, 2e-6,
+                   "normal incidence, index ", eta);
     }
-    EXPECT_EQ(evaluate("fresnel_dielectric(v.x, v.y)", {{0.3f, 1}, {0, 1}, {0, 1.5f}}),
-              (std::vector<float>{0, 0, 1}));
+    check.equal(evaluate(check, "fresnel_dielectric(v.x, v.y)", {{0.3f, 1}, {0, 1}, {0, 1.5f}}),
+                (std::vector<float>{0, 0, 1}), "Fresnel factor of index 1 or at grazing");
 }
 
-TEST(Fresnel, is_the_same_from_both_sides) {
+void fresnel_from_both_sides(Check& check) {
     std::vector<std::array<float, 4>> outside, inside;
     for (float eta : {1.1f, 1.5f, 2.4f})
         for (int i = 10; i <= 100; ++i) {  // below, the rounding of the other side's cosine shows
@@ -68,36 +69,56 @@ TEST(Fresnel, is_the_same_from_both_sides) {
             outside.push_back({float(c), eta});
             inside.push_back({float(std::sqrt(1 - (1 - c * c) / (double(eta) * eta))), 1 / eta});
         }
-    const auto a = evaluate("fresnel_dielectric(v.x, v.y)", outside),
-               b = evaluate("fresnel_dielectric(v.x, v.y)", inside);
-    const auto cosine = evaluate("fresnel_refracted_cosine(v.x, v.y)", outside);
+    const auto a = evaluate(check, "fresnel_dielectric(v.x, v.y)", outside),
+               b = evaluate(check, "fresnel_dielectric(v.x, v.y)", inside);
+    const auto cosine = evaluate(check, "fresnel_refracted_cosine(v.x, v.y)", outside);
     for (std::size_t i = 0; i < a.size(); ++i) {
-        EXPECT_NEAR(a[i], b[i], 1e-5);
-        EXPECT_NEAR(cosine[i], inside[i][0], 1e-6);
+        check.near(a[i], b[i], 1e-5, "Fresnel factor from the other side");
+        check.near(cosine[i], inside[i][0], 1e-6, "refracted cosine");
     }
 }
 
-TEST(Fresnel, total_reflection_begins_at_the_critical_angle) {
+void critical_angle(Check& check) {
     for (const auto& [n, degrees] : {std::pair{1.5f, 41.810315}, std::pair{1.72825f, 35.353539}})
         for (double offset : {-1e-3, 1e-3}) {
             const float c = float(std::cos((degrees + offset) * pi / 180));
-            EXPECT_EQ(evaluate("fresnel_dielectric(v.x, v.y)", {{c, 1 / n}})[0] == 1, offset > 0) << n;
+            check.equal(evaluate(check, "fresnel_dielectric(v.x, v.y)", {{c, 1 / n}})[0] == 1, offset > 0,
+                        "total reflection beside the critical angle of ", n);
         }
 }
 
-TEST(Ggx, distribution_keeps_its_digits_at_every_alpha) {
+void diffuse_fresnel(Check& check) {
+    // D6: 2 times the integral of F(c) c over the cosine, by midpoints, from outside and inside
+    struct Row {
+        float n;
+        double outside, inside;
+    };
+    for (const Row& row : {Row{1.5f, .091777959, .596345760}, Row{1.33f, .065930849, .471949149}})
+        for (const auto& [eta, expected] : {std::pair{row.n, row.outside}, {1 / row.n, row.inside}}) {
+            const int n = 1 << 16;
+            std::vector<std::array<float, 4>> inputs;
+            for (int i = 0; i < n; ++i) inputs.push_back({(i + 0.5f) / n, eta});
+            const auto f = evaluate(check, "fresnel_dielectric(v.x, v.y)", inputs);
+            double mean = 0;
+            for (int i = 0; i < n; ++i) mean += 2.0 * f[i] * inputs[i][0] / n;
+            check.near(mean, expected, 1e-5, "diffuse reflectance, index ", eta);
+        }
+}
+
+void distribution_keeps_its_digits(Check& check) {
     // C10, over visible slopes: tan(theta_h) from 0 to 30 alpha
     std::mt19937 generator(3);
     std::uniform_real_distribution<double> unit(0, 1);
+    const int count = int(check.count(100000));
     for (double alpha : {1e-4, 3e-4, 1e-3, 1e-2, 0.1, 0.5, 1.0}) {
         std::vector<std::array<float, 4>> inputs;
-        for (int i = 0; i < 100000; ++i) {
+        for (int i = 0; i < count; ++i) {
             const double t = 30 * alpha * unit(generator) * unit(generator), phi = 2 * pi * unit(generator);
             const double z = 1 / std::sqrt(1 + t * t);
             inputs.push_back(
                 {float(t * z * std::cos(phi)), float(t * z * std::sin(phi)), float(z), float(alpha)});
         }
-        const auto result = evaluate("ggx_distribution(v.xyz, v.w)", inputs);
+        const auto result = evaluate(check, "ggx_distribution(v.xyz, v.w)", inputs);
         double worst = 0;
         for (std::size_t i = 0; i < inputs.size(); ++i) {
             const auto& [x, y, z, a] = inputs[i];
@@ -105,30 +126,30 @@ TEST(Ggx, distribution_keeps_its_digits_at_every_alpha) {
             const double l2 = xy + double(z) * z;  // of the rounded vector
             worst = std::max(worst, std::abs(result[i] * (pi * double(a) * a * k * k) / (l2 * l2) - 1));
         }
-        EXPECT_LE(worst, 1e-5) << alpha;
+        check.at_most(worst, 1e-5, "D of alpha ", alpha);
     }
 }
 
-TEST(Ggx, masking_and_distribution_are_reciprocal) {
+void masking_is_reciprocal(Check& check) {
     std::mt19937 generator(4);
     std::uniform_real_distribution<float> unit(1e-3f, 1);
-    std::vector<std::array<float, 4>> inputs(20000), swapped;
+    std::vector<std::array<float, 4>> inputs(check.count(20000)), swapped;
     for (auto& v : inputs) v = {unit(generator), unit(generator), unit(generator), 0};
     for (const auto& v : inputs) swapped.push_back({v[1], v[0], v[2], 0});
     const std::string f =
         "ggx_masking(v.x, ggx_stretch((float3)(0.0f, sqrt(1.0f - v.x * v.x), v.x), v.z), v.y, "
         "ggx_stretch((float3)(sqrt(1.0f - v.y * v.y), 0.0f, v.y), v.z)) / v.y";
-    const auto a = evaluate(f, inputs), b = evaluate(f, swapped);
-    for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i] / b[i], 1, 1e-5);
+    const auto a = evaluate(check, f, inputs), b = evaluate(check, f, swapped);
+    for (std::size_t i = 0; i < a.size(); ++i) check.near(a[i] / b[i], 1, 1e-5, "masking swapped");
 }
 
-TEST(Ggx, visible_normals_never_point_away) {
+void visible_normals(Check& check) {
     // C11 with u at its ends, alpha 1e-4 .. 1, mu 1e-7 .. 1: (length error, NaN or back-facing marked by 1)
     std::vector<std::array<float, 4>> inputs;
     std::mt19937 generator(5);
     std::uniform_real_distribution<double> unit(0, 1);
     const float end = 1 - 0x1p-24f;
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0, count = int(check.count(200000)); i < count; ++i) {
         const auto pick = [&](int bit) {
             return i & bit ? float(std::min(unit(generator), double(end))) : (i & bit * 2 ? end : 0.0f);
         };
@@ -144,14 +165,15 @@ TEST(Ggx, visible_normals_never_point_away) {
                 text.replace(at, from.size(), to);
         };
         replace(f, "H", h), replace(f, "CAP", cap), replace(f, "WO", wo);
-        for (float error : evaluate(f, inputs)) ASSERT_LE(std::abs(error), 1e-6) << cap;
+        for (float error : evaluate(check, f, inputs))
+            check.at_most(std::abs(error), 1e-6, "length of a normal, cap ", cap);
     }
 }
 
-TEST(Ggx, share_of_reflections_below_the_horizon_is_the_closed_form) {
+void share_below_the_horizon(Check& check) {
     // C11: at alpha 1 and without the bound it is mu / (1 + mu); with the bound nothing is wasted at mu 1,
     // alpha .7
-    const int n = 1 << 17;
+    const int n = int(check.count(1 << 17));
     for (float mu : {1.0f, 0.5f, 0.1f}) {
         std::vector<std::array<float, 4>> inputs;
         for (int i = 0; i < n; ++i) inputs.push_back({float(i), mu, 0, 0});
@@ -160,24 +182,27 @@ TEST(Ggx, share_of_reflections_below_the_horizon_is_the_closed_form) {
         const auto below = [&](const std::string& alpha, const std::string& cap) {
             double share = 0;
             for (float x :
-                 evaluate("math_reflect(" + wo + ", ggx_sample(" + wo + ", " + alpha + ", ggx_stretch(" + wo +
+                 evaluate(check,
+                          "math_reflect(" + wo + ", ggx_sample(" + wo + ", " + alpha + ", ggx_stretch(" + wo +
                               ", " + alpha + "), " + cap + ", " + u + ")).z < 0.0f ? 1.0f : 0.0f",
                           inputs))
                 share += x / n;
             return share;
         };
         const double expected = mu / (1 + mu);
-        EXPECT_NEAR(below("1.0f", "1.0f"), expected, 5 * std::sqrt(expected * (1 - expected) / n)) << mu;
+        check.near(below("1.0f", "1.0f"), expected, 5 * std::sqrt(expected * (1 - expected) / n),
+                   "share below the horizon at ", mu);
         if (mu == 1) {
-            EXPECT_EQ(below("0.7f", "ggx_cap(" + wo + ", 0.7f)"), 0);
+            check.equal(below("0.7f", "ggx_cap(" + wo + ", 0.7f)"), 0, "share wasted at normal incidence");
         }
         if (mu == 0.5f) {
-            EXPECT_NEAR(below("0.7f", "ggx_cap(" + wo + ", 0.7f)"), 0.042, 0.004);
+            check.near(below("0.7f", "ggx_cap(" + wo + ", 0.7f)"), 0.042, 5 * std::sqrt(0.042 / n),
+                       "share wasted at 60 degrees");
         }
     }
 }
 
-TEST(Albedo, tables_hold_the_known_values) {
+void albedo_tables_hold_the_known_values(Check& check) {
     // D7: single-scattering albedo E(1), E(.2) and its cosine-weighted mean
     struct Row {
         float alpha, mean, one, fifth;
@@ -190,13 +215,31 @@ TEST(Albedo, tables_hold_the_known_values) {
         for (int i = 0; i < n; ++i) inputs.push_back({(i + 0.5f) / n, std::sqrt(row.alpha), 0, 0});
         inputs.push_back({1, std::sqrt(row.alpha), 0, 0}),
             inputs.push_back({0.2f, std::sqrt(row.alpha), 0, 0});
-        const auto e = evaluate("albedo_ggx(tables, sqrt(v.x), v.y).x", inputs);
+        const auto e = evaluate(check, "albedo_ggx(tables, sqrt(v.x), v.y).x", inputs);
         double mean = 0;
         for (int i = 0; i < n; ++i) mean += 2.0 * e[i] * inputs[i][0] / n;
-        EXPECT_NEAR(mean / row.mean, 1, 0.0015) << row.alpha;
-        EXPECT_NEAR(e[n] / row.one, 1, 0.004) << row.alpha;
-        EXPECT_NEAR(e[n + 1] / row.fifth, 1, 0.004) << row.alpha;
+        check.near(mean / row.mean, 1, 0.0015, "mean albedo of alpha ", row.alpha);
+        check.near(e[n] / row.one, 1, 0.004, "albedo at 1 of alpha ", row.alpha);
+        check.near(e[n + 1] / row.fifth, 1, 0.004, "albedo at .2 of alpha ", row.alpha);
     }
 }
 
 }  // namespace
+
+void add_ggx(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(cases.end(),
+                 {
+                     {"C10", "GGX distribution at every alpha", quick, distribution_keeps_its_digits},
+                     {"C11", "visible normals at grazing", quick, visible_normals},
+                     {"C11b", "share of reflections below the horizon", standard, share_below_the_horizon},
+                     {"C12", "Fresnel factor against double", quick, fresnel_agrees_with_double},
+                     {"C12b", "Fresnel factor from both sides", quick, fresnel_from_both_sides},
+                     {"C12c", "critical angle", standard, critical_angle},
+                     {"B1", "masking is reciprocal", standard, masking_is_reciprocal},
+                     {"D6", "diffuse Fresnel reflectance", quick, diffuse_fresnel},
+                     {"D7", "albedo of GGX", quick, albedo_tables_hold_the_known_values},
+                 });
+}
+
+}  // namespace triad

@@ -4,14 +4,12 @@
 // structs and arrays of them; when they add up to the size that the host's compiler asserted (TRIAD_SIZE),
 // the host has no padding and its offsets are the running sums. The device computes sizes and offsets with
 // its own compiler.
-#include <gtest/gtest.h>
-
 #include <regex>
 
-#include "device_fixture.h"
+#include "check/cases.h"
+#include "check/measurements.h"
 
-using namespace triad;
-
+namespace triad {
 namespace {
 
 struct Struct {
@@ -64,19 +62,19 @@ std::vector<Struct> structs_of_types_h() {
     return structs;
 }
 
-TEST(Layout, every_struct_of_the_border_is_found_and_has_no_padding_on_the_host) {
+void structs_have_no_padding(Check& check) {
     const std::string text = types_h();
     const std::vector<Struct> structs = structs_of_types_h();
     const std::regex any_struct(R"(\bstruct\b)");
-    ASSERT_EQ(structs.size(), static_cast<std::size_t>(
-                                  std::distance(Matches(text.begin(), text.end(), any_struct), Matches())));
+    const auto all = std::distance(Matches(text.begin(), text.end(), any_struct), Matches());
+    check.equal(structs.size(), static_cast<std::size_t>(all), "the number of structs found");
     for (const Struct& each : structs)
-        EXPECT_NE(text.find("TRIAD_SIZE(" + each.name + ", " + std::to_string(each.size) + ");"),
-                  std::string::npos)
-            << each.name << "'s members add up to " << each.size;
+        check.holds(text.find("TRIAD_SIZE(" + each.name + ", " + std::to_string(each.size) + ");") !=
+                        std::string::npos,
+                    each.name, "'s members add up to ", each.size);
 }
 
-TEST(Layout, sizes_and_offsets_on_the_device_are_those_of_the_host) {
+void layout_on_the_device(Check& check) {
     const std::vector<Struct> structs = structs_of_types_h();
     std::string source =
         "#include \"common/language.h\"\n"
@@ -94,14 +92,24 @@ TEST(Layout, sizes_and_offsets_on_the_device_are_those_of_the_host) {
         source += "    }\n";
     }
     source += "}\n";
-    Device& device = test_device();
+    Device& device = check.device;
     const Buffer out = device.allocate(expected.size() * sizeof(std::uint32_t)),
                  memory = device.allocate(4096);
     device.run(device.build_source("layout.cl", source).kernel("layout"), Arguments().add(out).add(memory), 1,
                1);
     const auto measured = device.download<std::uint32_t>(out);
     for (std::size_t i = 0; i < expected.size(); ++i)
-        EXPECT_EQ(measured[i], expected[i].second) << expected[i].first;
+        check.equal(measured[i], expected[i].second, expected[i].first);
 }
 
 }  // namespace
+
+void add_layout(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(cases.end(), {
+                                  {"L1", "structs of types.h on the host", standard, structs_have_no_padding},
+                                  {"L2", "structs of types.h on the device", quick, layout_on_the_device},
+                              });
+}
+
+}  // namespace triad

@@ -1,22 +1,21 @@
 // What light sampling draws: lights by their shares, directions of the environment by their densities.
-#include <gtest/gtest.h>
-
 #include <numeric>
 
-#include "../analytic/analytic_scene.h"
+#include "check/cases.h"
+#include "check/kernels.h"
+#include "check/picture.h"
 #include "render/pack.h"
-#include "shading_fixture.h"
 
 namespace triad {
 namespace {
 
-using analytic::Builder;
+using namespace picture_case;
 
 /// A kernel over the scene's arrays, with `body` computing float4 w from i, s (sampler of item i) and scene.
-std::vector<std::array<float, 4>> draw(const PackedScene& packed, const std::string& body,
+std::vector<std::array<float, 4>> draw(Check& check, const PackedScene& packed, const std::string& body,
                                        std::size_t count) {
     RenderSettings settings;
-    const DeviceScene scene = upload(test_device(), packed, settings);
+    const DeviceScene scene = upload(check.device, packed, settings);
     const std::string source = R"(#include "shading/light.h"
 __kernel void draw(__global float4* out, SCENE_PARAMETERS, uint count) {
     const uint i = get_global_id(0);
@@ -29,12 +28,12 @@ __kernel void draw(__global float4* out, SCENE_PARAMETERS, uint count) {
     out[i] = w;
 }
 )";
-    return run_kernel<std::array<float, 4>>(source, "draw", scene.arguments, count);
+    return run_kernel<std::array<float, 4>>(check.device, source, "draw", scene.arguments, count);
 }
 
 PackedScene packed_under(EnvironmentMap map) {
     Builder b;
-    b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), analytic::lambert(0.5f));
+    b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), lambert(0.5f));
     b.scene.environment = std::move(map);
     validate(b.scene);
     return pack(b.scene, RenderSettings{});
@@ -67,21 +66,22 @@ std::vector<double> shares_of(const PackedScene& packed) {
     return shares;
 }
 
-TEST(EnvironmentSampling, the_densities_of_a_map_integrate_to_one) {
+void densities_integrate_to_one(Check& check) {
     for (const auto& [width, height, sun] :
          {std::tuple{53u, 29u, 1e7f}, {7u, 3u, 1.0f}, {1u, 1u, 1.0f}, {1100u, 40u, 20.0f}}) {
         const PackedScene packed = packed_under(hard_map(width, height, sun));
         const std::vector<double> shares = shares_of(packed);
-        EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-5) << width;
+        check.near(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-5,
+                   "integral of the density, width ", width);
     }
 }
 
-TEST(EnvironmentSampling, draws_every_cell_as_often_as_its_density_says) {
+void cells_by_their_density(Check& check) {
     for (const auto& [width, height, sun] :
          {std::tuple{53u, 29u, 20.0f}, {33u, 7u, 1e7f}, {1100u, 4u, 5.0f}}) {
         const PackedScene packed = packed_under(hard_map(width, height, sun));
-        const std::size_t count = 1 << 20;
-        const auto drawn = draw(packed, R"(
+        const std::size_t count = check.count(1 << 20);
+        const auto drawn = draw(check, packed, R"(
     const Environment e = scene.frame->environment;
     float2 uv;
     const float3 d = environment_sample(&scene, &e, (uint2)(u.x.s0, u.y.s0), &uv);
@@ -93,8 +93,9 @@ TEST(EnvironmentSampling, draws_every_cell_as_often_as_its_density_says) {
         std::vector<double> counts(shares.size()), expected(shares.size());
         double off = 0;
         for (const auto& d : drawn) {
-            ASSERT_TRUE(d[0] >= 0 && d[0] < 1 && d[1] >= 0 && d[1] <= 1) << d[0] << " " << d[1];
+            check.holds(d[0] >= 0 && d[0] < 1 && d[1] >= 0 && d[1] <= 1, "map coordinates ", d[0], " ", d[1]);
             // A cell's border belongs to either side as far as floats can tell.
+            if (!(d[0] >= 0 && d[1] >= 0)) continue;
             const auto column = std::min(unsigned(double(d[0]) * width + 1e-6), width - 1);
             const auto row = std::min(unsigned(double(d[1]) * height), height - 1);
             counts[std::size_t(row) * width + column] += 1;
@@ -102,17 +103,17 @@ TEST(EnvironmentSampling, draws_every_cell_as_often_as_its_density_says) {
             off = std::max(off, double(d[3]));
         }
         for (std::size_t i = 0; i < shares.size(); ++i) expected[i] = shares[i] * double(count);
-        EXPECT_LE(chi_square_z(counts, expected), chi_square_limit) << width;
-        EXPECT_LE(off, 2e-5) << "direction and map coordinates must name the same point";
+        check.at_most(chi_square_z(counts, expected), chi_square_limit, "chi-square, width ", width);
+        check.also_at_most(off, 2e-5, "direction and map coordinates must name the same point");
     }
 }
 
-TEST(EnvironmentSampling, finds_the_column_of_every_share) {
+void column_of_every_share(Check& check) {
     // Every 16-bit share of one row: as many draws of a column as its bounds say, at every depth of the tree.
     for (const unsigned width : {1u, 31u, 32u, 33u, 1024u, 1025u, 5000u}) {
         const EnvironmentMap map = hard_map(width, 1, 3.0f);
         const PackedScene packed = packed_under(map);
-        const auto found = draw(packed, R"(
+        const auto found = draw(check, packed, R"(
     const uint column = columns_descend(&scene, 0u, i << 16, scene.frame->environment.columns.levels);
     w = (float4)((float)column, 0.0f, 0.0f, 0.0f);
 )",
@@ -124,21 +125,21 @@ TEST(EnvironmentSampling, finds_the_column_of_every_share) {
         const std::vector<std::uint32_t> bounds = column_shares(weights);
         for (std::uint32_t share = 0; share < 65536; ++share) {
             const auto column = std::upper_bound(bounds.begin(), bounds.end(), share) - bounds.begin() - 1;
-            ASSERT_EQ(found[share][0], float(column)) << "share " << share << " of " << width << " columns";
+            check.equal(found[share][0], float(column), "share ", share, " of ", width, " columns");
         }
     }
 }
 
-TEST(LightSampling, picks_every_light_by_its_share) {
+void light_picks(Check& check) {
     Builder b;
-    b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), analytic::lambert(0.5f));
+    b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), lambert(0.5f));
     for (int i = 0; i < 700; ++i)
         b.scene.lights.push_back(
             {.position = {float(i % 9), 2, float(i / 9)}, .colour = vec3(float(i % 13) * 0.1f)});
     validate(b.scene);
     const PackedScene packed = pack(b.scene, RenderSettings{});
-    const std::size_t count = 1 << 20;
-    const auto drawn = draw(packed, R"(
+    const std::size_t count = check.count(1 << 20);
+    const auto drawn = draw(check, packed, R"(
     float fraction, probability;
     const uint k = cdf_find(&scene.frame->lights, scene.light_cdf, u.x.s2, &fraction, &probability);
     w = (float4)((float)k, fabs(probability - scene.lights[k].pick), fraction, 0.0f);
@@ -146,19 +147,33 @@ TEST(LightSampling, picks_every_light_by_its_share) {
                             count);
     std::vector<double> counts(packed.lights.size()), expected(packed.lights.size());
     for (const auto& d : drawn) {
-        ASSERT_LT(d[0], float(counts.size()));
-        ASSERT_LE(d[1], 1e-9f);
-        ASSERT_TRUE(d[2] >= 0 && d[2] < 1);
+        check.also_at_most(d[0], double(counts.size() - 1), "light");
+        if (!(d[0] < float(counts.size()))) continue;
+        check.also_at_most(d[1], 1e-9, "probability of the pick");
+        check.holds(d[2] >= 0 && d[2] < 1, "fraction ", d[2]);
         counts[std::size_t(d[0])] += 1;
     }
     for (std::size_t i = 0; i < counts.size(); ++i) {
         expected[i] = double(packed.lights[i].pick) * double(count);
         if (packed.lights[i].pick == 0) {
-            EXPECT_EQ(counts[i], 0) << "a light without power was picked";
+            check.equal(counts[i], 0, "a light without power was picked");
         }
     }
-    EXPECT_LE(chi_square_z(counts, expected), chi_square_limit);
+    check.at_most(chi_square_z(counts, expected), chi_square_limit, "chi-square of picks");
 }
 
 }  // namespace
+
+void add_light_samplers(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(
+        cases.end(),
+        {
+            {"C16", "chi-square of the environment with a sun", quick, cells_by_their_density},
+            {"C16c", "densities of the environment integrate to 1", quick, densities_integrate_to_one},
+            {"C16d", "every share finds its column", standard, column_of_every_share},
+            {"S6", "chi-square of light picks", standard, light_picks},
+        });
+}
+
 }  // namespace triad

@@ -1,13 +1,12 @@
 // Frames and the maps from the unit square to the shapes that are sampled.
-#include <gtest/gtest.h>
-
 #include <functional>
 #include <random>
 
-#include "shading_fixture.h"
+#include "check/cases.h"
+#include "check/kernels.h"
+#include "check/measurements.h"
 
-using namespace triad;
-
+namespace triad {
 namespace {
 
 using Vector = std::array<float, 4>;  // float4
@@ -28,7 +27,7 @@ std::vector<Vector> unit_vectors(std::size_t count) {
     return vectors;
 }
 
-TEST(Frame, is_orthonormal_for_every_normal) {
+void frames_are_orthonormal(Check& check) {
     const char* const source = R"(#include "common/frame.h"
 __kernel void frames(__global float4* out, __global const float4* normals, uint count) {
     const uint i = get_global_id(0);
@@ -41,9 +40,9 @@ __kernel void frames(__global float4* out, __global const float4* normals, uint 
     out[4 * i + 3] = (float4)(frame_to_local(&f, frame_to_world(&f, v)) - v, 0.0f);
 }
 )";
-    const auto normals = unit_vectors(1 << 18);
-    const auto rows = run_kernel<Vector>(source, "frames", Arguments().add(test_device().upload(normals)),
-                                         normals.size(), 4);
+    const auto normals = unit_vectors(check.count(1 << 18));
+    const auto rows = run_kernel<Vector>(check.device, source, "frames",
+                                         Arguments().add(check.device.upload(normals)), normals.size(), 4);
     const auto at = [&](std::size_t i) { return dvec3(rows[i][0], rows[i][1], rows[i][2]); };
     double worst = 0;
     for (std::size_t i = 0; i < normals.size(); ++i) {
@@ -53,12 +52,14 @@ __kernel void frames(__global float4* out, __global const float4* normals, uint 
               glm::dot(glm::cross(x, y), z) - 1, glm::length(at(4 * i + 3))})
             worst = std::max(worst, std::abs(error));
     }
-    EXPECT_LE(worst, 1e-6);
+    check.at_most(worst, 1e-6);
 }
 
-/// Draws 2^18 points with `expression` of (float2 u) giving (cell u, cell v, error) and checks the counts of
-/// 32 x 32 cells against `expected`, the share of each.
-void expect_distribution(const std::string& expression, const std::function<double(int, int)>& share) {
+/// Draws points with `expression` of (float2 u) giving (cell u, cell v, error) and checks the counts of
+/// up to 32 x 32 cells against `share`, by default the same for each.
+void expect_distribution(
+    Check& check, const std::string& expression,
+    const std::function<double(int, int, int)>& share = [](int, int, int n) { return 1.0 / (n * n); }) {
     const std::string source = R"(#include "common/random.h"
 #include "common/sampling.h"
 __kernel void draw(__global float4* out, uint count) {
@@ -71,63 +72,60 @@ __kernel void draw(__global float4* out, uint count) {
     out[i] = (float4)(w, 0.0f);
 }
 )";
-    const std::size_t count = 1 << 18;
-    const int n = 32;
-    const auto points = run_kernel<Vector>(source, "draw", {}, count);
+    const std::size_t count = check.count(1 << 18);
+    const int n = grid_edge(count, 32);
+    const auto points = run_kernel<Vector>(check.device, source, "draw", {}, count);
     std::vector<double> counts(n * n), expected(n * n);
     for (const Vector& p : points) {
-        ASSERT_TRUE(p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1) << expression << p[0] << " " << p[1];
-        EXPECT_LE(std::abs(p[2]), 1e-6) << expression;
+        check.holds(p[0] >= 0 && p[0] <= 1 && p[1] >= 0 && p[1] <= 1, expression, p[0], " ", p[1]);
+        check.also_at_most(std::abs(p[2]), 1e-6, expression);
         ++counts[std::min(n - 1, int(p[0] * n)) * n + std::min(n - 1, int(p[1] * n))];
     }
     for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) expected[i * n + j] = count * share(i, j);
-    EXPECT_LT(chi_square_z(counts, expected), chi_square_limit) << expression;
+        for (int j = 0; j < n; ++j) expected[i * n + j] = double(count) * share(i, j, n);
+    check.below(chi_square_z(counts, expected), chi_square_limit, expression);
 }
 
 const std::string turn = "math_saturate(0.5f + math_atan2(w.y, w.x) / MATH_TWO_PI)";
 const std::string length_error = "math_dot(w, w) - 1.0f";
 
-TEST(Sampling, disc_is_uniform) {
-    expect_distribution(
-        "float2 d = sampling_disc(u); w = (float3)(d, 0.0f);"
-        "w = (float3)(math_min(math_dot(w, w), 1.0f)," +
-            turn + ", 0.0f);",
-        [](int, int) { return 1.0 / 1024; });
+void disc_is_uniform(Check& check) {
+    expect_distribution(check,
+                        "float2 d = sampling_disc(u); w = (float3)(d, 0.0f);"
+                        "w = (float3)(math_min(math_dot(w, w), 1.0f)," +
+                            turn + ", 0.0f);");
 }
 
-TEST(Sampling, hemisphere_is_cosine_weighted) {
+void hemisphere_is_cosine_weighted(Check& check) {
     // the pdf is z / pi: z^2 is uniform
     expect_distribution(
-        "w = sampling_cosine(u); w = (float3)(w.z * w.z, " + turn + ", " + length_error + ");",
-        [](int, int) { return 1.0 / 1024; });
+        check, "w = sampling_cosine(u); w = (float3)(w.z * w.z, " + turn + ", " + length_error + ");");
 }
 
-TEST(Sampling, triangle_is_uniform) {
+void triangle_is_uniform(Check& check) {
     // share of the cell (i, j) of the unit square that lies below the diagonal
-    expect_distribution("w = (float3)(sampling_triangle(u), 0.0f);", [](int i, int j) {
-        return i + j < 31 ? 2.0 / 1024 : i + j == 31 ? 1.0 / 1024 : 0.0;
+    expect_distribution(check, "w = (float3)(sampling_triangle(u), 0.0f);", [](int i, int j, int n) {
+        return (i + j < n - 1 ? 2.0 : i + j == n - 1 ? 1.0 : 0.0) / (n * n);
     });
 }
 
-TEST(Sampling, sphere_is_uniform) {
-    expect_distribution(
-        "w = sampling_sphere(u); w = (float3)(0.5f - 0.5f * w.z, " + turn + ", " + length_error + ");",
-        [](int, int) { return 1.0 / 1024; });
+void sphere_is_uniform(Check& check) {
+    expect_distribution(check, "w = sampling_sphere(u); w = (float3)(0.5f - 0.5f * w.z, " + turn + ", " +
+                                   length_error + ");");
 }
 
-TEST(Sampling, cones_are_uniform_however_small) {
+void cones_are_uniform(Check& check) {
     // sin^2 / (1 + cos) of the direction over that of the cone is uniform
     for (const char* sin2 : {"1.0f", "0.25f", "1e-4f", "1e-10f"})
         expect_distribution(
+            check,
             std::string("float m = sampling_one_minus_cos(") + sin2 +
                 "); w = sampling_cone(u, m); float t = sampling_one_minus_cos(w.x * w.x + w.y * w.y) / m;"
                 "w = (float3)(math_min(t, 1.0f), " +
-                turn + ", " + length_error + ");",
-            [](int, int) { return 1.0 / 1024; });
+                turn + ", " + length_error + ");");
 }
 
-TEST(Sampling, solid_angles_of_small_cones_keep_their_digits) {
+void solid_angles_of_small_cones(Check& check) {
     // C13: sphere of radius r at distance 1, r = 1 .. 1e-6
     const char* const source = R"(#include "common/sampling.h"
 __kernel void omega(__global float* out, __global const float* r, uint count) {
@@ -137,12 +135,28 @@ __kernel void omega(__global float* out, __global const float* r, uint count) {
 )";
     std::vector<float> radii;
     for (float r = 1; r > 1e-6f; r *= 0.9f) radii.push_back(r);
-    const auto omega =
-        run_kernel<float>(source, "omega", Arguments().add(test_device().upload(radii)), radii.size());
+    const auto omega = run_kernel<float>(check.device, source, "omega",
+                                         Arguments().add(check.device.upload(radii)), radii.size());
     for (std::size_t i = 0; i < radii.size(); ++i) {
         const double half = std::sin(0.5 * std::asin(double(radii[i])));
-        EXPECT_NEAR(omega[i] / (4 * pi * half * half), 1, 1e-6) << radii[i];
+        check.near(omega[i] / (4 * pi * half * half), 1, 1e-6, "solid angle at radius ", radii[i]);
     }
 }
 
 }  // namespace
+
+void add_sampling(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(cases.end(),
+                 {
+                     {"C13", "solid angles of small cones", quick, solid_angles_of_small_cones},
+                     {"C22", "orthonormal frames", quick, frames_are_orthonormal},
+                     {"S1", "chi-square of the disc", standard, disc_is_uniform},
+                     {"S2", "chi-square of the cosine hemisphere", quick, hemisphere_is_cosine_weighted},
+                     {"S3", "chi-square of the triangle", quick, triangle_is_uniform},
+                     {"S4", "chi-square of the sphere", standard, sphere_is_uniform},
+                     {"S5", "chi-square of cones", standard, cones_are_uniform},
+                 });
+}
+
+}  // namespace triad

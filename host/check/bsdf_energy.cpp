@@ -1,0 +1,109 @@
+// The glTF material gives back all light and no more.
+#include <random>
+
+#include "check/bsdf_case.h"
+#include "check/cases.h"
+
+namespace triad {
+namespace {
+
+using namespace bsdf_case;
+
+const std::vector<float> roughnesses = {0.001f, 0.02f, 0.04f, 0.1f, 0.2f, 0.3f, 0.45f, 0.6f, 0.75f, 0.9f, 1};
+const std::vector<float> cosines = {0.02f, 0.05f, 0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1};
+
+/// Furnace of a white material over roughness x mu: the energy may be off by `worst` anywhere and by `mean`
+/// in the cosine-weighted mean over all directions of each roughness.
+void expect_furnace(Check& check, Case c, double worst, double mean, std::uint32_t samples = 1 << 13) {
+    if (check.level == CheckLevel::tiny) samples = 64, worst = mean = 0.25;
+    std::vector<Case> cases;
+    for (float roughness : roughnesses)
+        for (float mu : cosines) c.roughness = roughness, c.mu = mu, cases.push_back(c);
+    const auto results = furnace(check, cases, samples);
+    double sum = 0, weight = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        expect_sound(check, results[i], cases[i]);
+        check.near(results[i].r, 1, worst, "energy at roughness ", cases[i].roughness, ", mu ", cases[i].mu);
+        sum += (results[i].r - 1) * cases[i].mu, weight += cases[i].mu;
+        if (cases[i].mu < 1) continue;
+        check.at_most(std::abs(sum / weight), mean, "mean energy of roughness ", cases[i].roughness);
+        sum = weight = 0;
+    }
+}
+
+void furnace_white_metal(Check& check) { expect_furnace(check, {.metallic = 1}, 0.006, 0.0015); }
+void furnace_white_coated_diffuse(Check& check) {
+    for (float ior : {0.0f, 1.0f, 1.5f, 2.5f}) expect_furnace(check, {.ior = ior}, 0.006, 0.0015);
+}
+void furnace_half_metal_half_transmission(Check& check) {
+    expect_furnace(check, {.metallic = 0.5f, .specular = 0.6f, .transmission = 0.5f}, 0.006, 0.0015, 1 << 15);
+}
+void furnace_thin_wall(Check& check) {
+    for (float ior : {1.0f, 1.5f, 2.5f})
+        expect_furnace(check, {.ior = ior, .transmission = 1}, 0.006, 0.0015);
+}
+void furnace_solid_body(Check& check) {
+    for (float ior : {1.0f, 1.009f, 1.1f, 1.33f, 1.5f, 1.8f, 2.417f, 3.5f})
+        for (float inside : {0.0f, 1.0f})
+            expect_furnace(check, {.ior = ior, .transmission = 1, .solid = 1, .inside = inside}, 0.025,
+                           0.005);
+}
+void furnace_solid_body_of_nearly_the_same_index(Check& check) {
+    // grazing total reflection of an index just above the smooth ones is the worst of the tables
+    for (float inside : {0.0f, 1.0f})
+        expect_furnace(check, {.ior = 1.011f, .transmission = 1, .solid = 1, .inside = inside}, 0.15, 0.01);
+}
+void furnace_solid_body_with_another_reflectance(Check& check) {
+    for (float inside : {0.0f, 1.0f})
+        expect_furnace(check, {.specular = 0, .transmission = 1, .solid = 1, .inside = inside}, 0.025, 0.004);
+}
+
+void random_materials_never_gain_energy(Check& check) {
+    std::mt19937 generator(11);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const auto number = [&] {
+        return std::min(std::max(1.4f * unit(generator) - 0.2f, 0.0f), 1.0f);
+    };  // 0 and 1 often
+    std::vector<Case> cases;
+    const int count = int(check.count(3000, 1000));
+    for (int i = 0; i < count; ++i) {
+        Case c;
+        for (float& x : c.base) x = number();
+        for (float& x : c.specular_colour) x = number();
+        c.metallic = number(), c.roughness = number(), c.specular = number(), c.transmission = number();
+        c.ior = i % 10 ? 1 + 2 * number() : 0;
+        c.solid = float(i % 2), c.inside = float(i % 4 == 3);
+        c.mu = i % 3 ? number() * 0.999f + 0.001f : std::pow(10.0f, -7 * unit(generator));
+        cases.push_back(c);
+    }
+    const std::uint32_t samples = check.level == CheckLevel::tiny ? 64 : 1024;
+    const auto results = furnace(check, cases, samples);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const Furnace& f = results[i];
+        expect_sound(check, f, cases[i]);
+        // table error, and the noise of samples of weights of at most `largest`
+        check.at_most(std::max({f.r, f.g, f.b}), 1.02 + 0.96 / std::sqrt(samples) * f.largest, "energy");
+    }
+}
+
+}  // namespace
+
+void add_bsdf_energy(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(
+        cases.end(),
+        {
+            {"F1", "furnace of white metal", quick, furnace_white_metal},
+            {"F2", "furnace of coated diffuse", quick, furnace_white_coated_diffuse},
+            {"F3", "furnace of half metal, half glass", standard, furnace_half_metal_half_transmission},
+            {"F4", "furnace of thin walls", standard, furnace_thin_wall},
+            {"F5", "furnace of solid bodies", quick, furnace_solid_body},
+            {"F6", "furnace of bodies of nearly the same index", standard,
+             furnace_solid_body_of_nearly_the_same_index},
+            {"F7", "furnace of bodies with another reflectance", standard,
+             furnace_solid_body_with_another_reflectance},
+            {"F8", "random materials never gain energy", standard, random_materials_never_gain_energy},
+        });
+}
+
+}  // namespace triad

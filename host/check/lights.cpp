@@ -1,0 +1,122 @@
+// Light sampling: the environment's directions, which light is picked, and what a sample weighs.
+#include "check/cases.h"
+#include "check/kernels.h"
+#include "check/picture.h"
+#include "render/pack.h"
+
+namespace triad {
+namespace {
+
+using namespace picture_case;
+
+const char* const source = R"(#include "common/random.h"
+#include "shading/light.h"
+/* Samples seen from the origin: (direction, 1 / pdf), (pdf of that direction, weight, map coordinates). */
+__kernel void draw(__global float4* out, SCENE_PARAMETERS, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Sampler s = sampler_make(3u, i, 0u, 0u, 11u);
+    LightSample l;
+    l.uv = (float2)(0.0f);
+    const uint pick = sampler_2d_bits(&s, SAMPLER_SOBOL_SETS).x;
+    const int lit = light_sample(&scene, (float3)(0.0f), pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
+                    light_complete(&scene, &l);
+    float pdf = 0.0f;
+    if (lit && l.distant) environment_radiance(&scene, l.direction, &pdf);
+    out[2 * i] = lit ? (float4)(l.direction, l.inverse_pdf) : (float4)(0.0f);
+    out[2 * i + 1] = lit ? (float4)(pdf, l.weight.y, l.uv) : (float4)(0.0f);
+}
+)";
+
+using Four = std::array<float, 4>;
+
+/// A scene on the device as the renderer packs it, seen from above.
+struct OnDevice {
+    PackedScene packed;
+    DeviceScene scene;
+};
+OnDevice on_device(Device& device, Scene scene) {
+    validate(scene);
+    RenderSettings settings;
+    settings.view = look_at({0, 0, 0}, {0, -1, 0}, 1.0, 1.0);
+    OnDevice result{pack(scene, settings), {}};
+    result.scene = upload(device, result.packed, settings);
+    return result;
+}
+
+void environment_samples(Check& check) {
+    // Bright and dim patches, a sun in one texel, and black rows that must never be drawn.
+    const unsigned w = 32, h = 16;
+    EnvironmentMap map{w, h, std::vector<float>(w * h * 3)};
+    const auto texel = [&](unsigned x, unsigned y) -> float {
+        if (y >= 10) return 0.0f;
+        return x == 20 && y == 5 ? 1e3f : 1.0f + float((x * 7 + y * 3) % 11);
+    };
+    for (unsigned i = 0; i < w * h; ++i)
+        for (int c = 0; c < 3; ++c) map.rgb[i * 3 + c] = texel(i % w, i / w);
+    Builder b;
+    b.add(square(-1, true), lambert(0.5f)).scene.environment = map;
+    const OnDevice world = on_device(check.device, b.scene);
+
+    const std::size_t count = check.count(1 << 18);
+    const auto samples = run_kernel<Four>(check.device, source, "draw", world.scene.arguments, count, 2);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Four &a = samples[2 * i], &s = samples[2 * i + 1];
+        const dvec3 d(a[0], a[1], a[2]);
+        check.also_at_most(std::abs(glm::length(d) - 1), 2e-6, "length of a direction");
+        const double u = 0.5 + std::atan2(d.z, d.x) / (2 * pi),
+                     v = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi;
+        check.holds(v * h < 11, "a direction to a black row");
+        check.holds(std::isfinite(s[1]) && s[1] >= 0, "weight of a sample");
+        // Beside the border of a texel either density is right.
+        const double x = u * w - std::floor(u * w), y = v * h - std::floor(v * h);
+        if (std::min({x, y, 1 - x, 1 - y}) > 1e-3)
+            check.near(double(s[0]) * a[3], 1, 1e-5, "pdf against its inverse");
+    }
+}
+
+void tiny_far_light(Check& check) {
+    // C15: a square of area 1e-12 at a distance of 1e6 gives E = L A / d^2 = 1e-24, from any of its samples.
+    Builder b;
+    b.add(shapes::quad({-5e-7f, 1e6f, -5e-7f}, {1e-6f, 0, 0}, {0, 0, 1e-6f}), emitter(1.0f));
+    b.add(square(-1, true), lambert(1.0f));
+    const OnDevice world = on_device(check.device, b.scene);
+    const std::size_t count = check.count(4096);
+    double mean = 0;
+    for (std::size_t i = 0;
+         const Four& s : run_kernel<Four>(check.device, source, "draw", world.scene.arguments, count, 2))
+        if (i++ % 2) mean += s[1] / double(count);
+    check.near(mean * 1e24, 1, 1e-4, "irradiance over 1e-24");
+}
+
+void heuristic_at_its_ends(Check& check) {
+    const char* const text = R"(#include "shading/light.h"
+__kernel void weigh(__global float* out, __global const float* ratio, uint count) {
+    const uint i = get_global_id(0);
+    if (i < count) out[i] = power_heuristic(ratio[i]);
+}
+)";
+    const std::vector<float> ratios{0.0f, 1.0f, 3.0f, 1e24f, 3e38f, INFINITY, 1e-30f};
+    const std::vector<float> expected{1.0f, 0.5f, 0.1f, 0.0f, 0.0f, 0.0f, 1.0f};
+    const auto w = run_kernel<float>(check.device, text, "weigh",
+                                     Arguments().add(check.device.upload(ratios)), ratios.size());
+    for (std::size_t i = 0; i < w.size(); ++i)
+        check.near(w[i], expected[i], 1e-7, "weight at ratio ", ratios[i]);
+}
+
+}  // namespace
+
+void add_lights(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(cases.end(),
+                 {
+                     {"C14", "spherical triangles", quick, nullptr,
+                      "triangle lights are sampled by area: no kernel samples their solid angle"},
+                     {"C15", "tiny far light", quick, tiny_far_light},
+                     {"C15b", "power heuristic at its ends", quick, heuristic_at_its_ends},
+                     {"C16e", "samples of the environment and their density", quick, environment_samples},
+                 });
+}
+
+}  // namespace triad

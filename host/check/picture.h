@@ -1,0 +1,69 @@
+#pragma once
+/// Scenes with a known answer: a few primitives, a camera, and statistics of the picture.
+#include <optional>
+#include <span>
+#include <string>
+
+#include "check/measurements.h"
+#include "render/renderer.h"
+#include "scene/shapes.h"
+
+namespace triad::picture_case {
+
+/// Lambert with this albedo and nothing else: KHR_materials_specular with factor 0.
+Material lambert(float albedo);
+/// A black body that emits `radiance`.
+Material emitter(float radiance, bool double_sided = false);
+/// White solid glass.
+Material glass(float ior, float roughness = 0.0f);
+
+struct Builder {
+    Scene scene;
+
+    Builder& add(Primitive primitive, const Material& material, const dmat4& to_world = dmat4(1.0));
+    Builder& sky(float radiance);
+};
+
+/// A square about the y axis in the plane y = height, with its front up or down.
+Primitive square(double height, bool up, double half = 0.5);
+
+/// Sees [-half, half]^2 around `centre` from `distance` away, orthographically, against `towards` (unit).
+View orthographic(const dvec3& centre, const dvec3& towards, double half, double distance);
+
+/// A small room with everything in it: textures, alpha, glass, metal, an area light, a point light, an
+/// environment; and a small picture of it.
+Scene varied_scene();
+RenderSettings varied_settings();
+
+/// The film of these sample ranges. `features` replaces those of the scene.
+Film render(Device& device, const Scene& scene, const RenderSettings& settings,
+            const std::vector<SampleRange>& ranges, const std::optional<Features>& features = {});
+
+/// Mean of the green channel over the picture, and the standard error of that mean from independent seeds.
+struct Measured {
+    double mean = 0, standard_error = 0;
+    std::uint64_t not_finite = 0;
+};
+
+struct Plan {
+    View view;
+    unsigned size = 16, spp = 64, seeds = 8, max_depth = 0;
+};
+
+Measured measure(Device& device, const Scene& scene, const Plan& plan,
+                 const std::optional<Features>& features = {});
+
+/// The same with the samples of the check's level. Below the full level by the program that has everything
+/// compiled in, so that there is one to compile.
+Measured measure(Check& check, const Scene& scene, Plan plan);
+
+/// Student's t quantile at which 8 seeds (7 degrees of freedom) are wrong once in 1e5, two-sided; the family
+/// of all comparisons stays below 1e-3 and seeds are fixed.
+inline constexpr double t_limit = 10.1;
+
+/// Measures the closed form within the statistical error and `bias`: what the case's own geometry or a table
+/// leaves.
+void expect_closed_form(Check& check, const std::string& what, const Measured& m, double expected,
+                        double bias);
+
+}  // namespace triad::picture_case

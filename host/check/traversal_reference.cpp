@@ -1,0 +1,181 @@
+// Traversal against brute force in double precision: what is hit, where, and what is not.
+#include "check/cases.h"
+#include "check/measurements.h"
+#include "check/tracer.h"
+
+namespace triad {
+namespace {
+
+using namespace traversal_case;
+
+/// Compares every ray whose answer is not a matter of rounding; returns how many were compared.
+std::size_t expect_reference(Check& check, const World& world, const std::vector<dev::Ray>& rays,
+                             double size) {
+    const Tracer tracer(check.device, world);
+    const auto hits = tracer.closest(rays);
+    const auto occluded = tracer.occluded(rays);
+    std::size_t compared = 0, wrong = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check.equal(occluded[i], hits[i].primitive != TRIAD_NONE ? 1u : 0u, "occlusion of ray ", i);
+        const Reference expected = brute_force(world, rays[i]);
+        if (expected.margin < 1e-4 || expected.second_t - expected.t < 1e-4 * size) continue;
+        ++compared;
+        if (hits[i].primitive != expected.primitive || hits[i].instance != expected.instance) {
+            ++wrong;
+            continue;
+        }
+        if (expected.primitive == TRIAD_NONE) continue;
+        check.near(hits[i].t, expected.t, 1e-4 * size, "t of ray ", i);
+        check.near(hits[i].u, expected.u, 1e-2, "u of ray ", i);
+        check.near(hits[i].v, expected.v, 1e-2, "v of ray ", i);
+    }
+    check.at_most(double(wrong), 0, "wrong hits of ", compared);
+    return compared;
+}
+
+std::vector<dev::Ray> random_rays(std::size_t count, double reach, std::uint64_t seed) {
+    Random random(seed);
+    std::vector<dev::Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) {
+        dev::Ray r = ray(random.in_cube(reach), random.direction());
+        if (i % 3 == 0) r.t_max = float(random.between(0.1, 1.0) * reach);
+        rays.push_back(r);
+    }
+    return rays;
+}
+
+World soup(std::size_t count, double half, double size, std::uint64_t seed) {
+    Random random(seed);
+    World world;
+    world.origin_reach = float(2 * half);
+    for (std::size_t i = 0; i < count; ++i) {
+        const dvec3 centre = random.in_cube(half);
+        const auto corner = [&] { return vec3(centre + random.in_cube(size)); };
+        const vec3 a = corner(), b = corner(), c = corner();
+        world.add(0, a, b, c);
+    }
+    return world;
+}
+
+void agrees_on_random_triangles(Check& check) {
+    const std::size_t rays = check.count(3000);
+    for (const std::size_t count : {1u, 2u, 3u, 4u, 5u, 7u, 8u, 9u, 31u, 33u, 400u})
+        check.above(expect_reference(check, soup(count, 1.0, 0.6, count), random_rays(rays, 2.0, 7), 1.0),
+                    2 * rays / 3, "rays compared");
+}
+
+void agrees_at_every_scale(Check& check) {
+    const std::size_t rays = check.count(3000);
+    for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+        const World world = soup(300, scale, 0.3 * scale, 11);
+        check.above(expect_reference(check, world, random_rays(rays, 2.0 * scale, 13), scale), 2 * rays / 3,
+                    "rays compared");
+    }
+}
+
+void empty_world(Check& check) {
+    const Tracer tracer(check.device, World{});
+    const auto rays = random_rays(100, 1.0, 3);
+    for (const dev::Hit& hit : tracer.closest(rays)) check.equal(hit.primitive, TRIAD_NONE, "primitive");
+    for (const std::uint32_t occluded : tracer.occluded(rays)) check.equal(occluded, 0u, "occlusion");
+}
+
+void agrees_with_instances(Check& check) {
+    const std::size_t rays = check.count(6000);
+    World world = soup(50, 3.0, 0.5, 17);
+    world.origin_reach = 8.0f;
+    world.add(1, shapes::displaced_sphere(vec3(0.0f), 1.0f, 12, 8, 0.2f, 2.0f, 3));
+    world.add(2, shapes::torus(vec3(100.0f, 0.0f, 0.0f), 10.0f, 4.0f, 12, 8));
+    Random random(19);
+    for (int i = 0; i < 24; ++i) {
+        dmat4 m = glm::translate(dmat4(1.0), random.in_cube(3.0));
+        m = glm::rotate(m, random.between(0, 6.28), random.direction());
+        const double scale = std::exp(random.between(-1.5, 0.2));
+        m = glm::scale(m, scale * dvec3(i % 2 ? -1.0 : 1.0, i % 3 ? 1.0 : 0.2, 1.0));
+        if (i % 4 == 3) {
+            m = glm::scale(m, dvec3(0.08));
+            m = glm::translate(m, dvec3(-100.0, 0.0, 0.0));
+        }
+        world.placements.push_back({std::size_t(i % 4 == 3 ? 2 : 1), m});
+    }
+    check.above(expect_reference(check, world, random_rays(rays, 4.0, 23), 1.0), 2 * rays / 3,
+                "rays compared");
+}
+
+void agrees_with_tiny_and_huge_instances(Check& check) {
+    const std::size_t rays = check.count(3000);
+    for (const double scale : {1e-5, 1e5}) {
+        World world;
+        world.origin_reach = 3.0f;
+        world.add(1, shapes::displaced_sphere(vec3(0.0f), float(1.0 / scale), 16, 8, 0.3f, 2.0f, 5));
+        world.placements.push_back({1, glm::scale(dmat4(1.0), dvec3(scale))});
+        check.above(expect_reference(check, world, random_rays(rays, 2.0, 29), 1.0), 2 * rays / 3,
+                    "rays compared");
+    }
+}
+
+void length_of_direction_scales_t(Check& check) {
+    const World world = soup(200, 1.0, 0.4, 31);
+    const Tracer tracer(check.device, world);
+    auto rays = random_rays(2000, 2.0, 37);
+    for (dev::Ray& r : rays) r.t_max = std::numeric_limits<float>::infinity();
+    const auto unit = tracer.closest(rays);
+    for (dev::Ray& r : rays)
+        for (float& d : r.direction) d *= 4.0f;
+    const auto scaled = tracer.closest(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check.equal(scaled[i].primitive, unit[i].primitive, "primitive");
+        check.equal(scaled[i].t * 4.0f, unit[i].t, "t");
+        check.equal(scaled[i].u, unit[i].u, "u");
+    }
+}
+
+void t_max_counts(Check& check) {
+    World world;
+    world.origin_reach = 1.0f;
+    world.add(0, shapes::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 5, 5));
+    const Tracer tracer(check.device, world);
+    const std::vector<dev::Ray> rays{ray({0.1, 0.3, 1}, {0, 0, -1}, 1.0f),
+                                     ray({0.1, 0.3, 1}, {0, 0, -1}, 0.99999994f),
+                                     ray({0.1, 0.3, 0}, {0, 0, -1})};
+    const auto hits = tracer.closest(rays);
+    const auto occluded = tracer.occluded(rays);
+    check.equal(hits[0].t, 1.0f, "t at t_max");
+    check.equal(occluded[0], 1u, "occlusion at t_max");
+    check.equal(hits[1].primitive, TRIAD_NONE, "hit beyond t_max");
+    check.equal(occluded[1], 0u, "occlusion beyond t_max");
+    check.equal(hits[2].primitive, TRIAD_NONE, "hit at t = 0, which does not count,");
+}
+
+void same_bits_without_instances(Check& check) {
+    const World world = soup(500, 1.0, 0.3, 41);
+    const auto rays = random_rays(4000, 2.0, 43);
+    const auto general = Tracer(check.device, world).closest(rays),
+               special = Tracer(check.device, world, {{"TRIAD_INSTANCES", "0"}}).closest(rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check.equal(general[i].primitive, special[i].primitive, "primitive");
+        check.equal(general[i].t, special[i].t, "t");
+        check.equal(general[i].u, special[i].u, "u");
+        check.equal(general[i].v, special[i].v, "v");
+    }
+}
+
+}  // namespace
+
+void add_traversal_reference(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(cases.end(),
+                 {
+                     {"T2", "rays against brute force", quick, agrees_on_random_triangles},
+                     {"T3", "rays against brute force at every scale", standard, agrees_at_every_scale},
+                     {"T4", "instances against brute force", quick, agrees_with_instances},
+                     {"T5", "tiny and huge instances against brute force", standard,
+                      agrees_with_tiny_and_huge_instances},
+                     {"T6", "an empty world", standard, empty_world},
+                     {"T7", "length of the direction scales t alone", standard, length_of_direction_scales_t},
+                     {"T8", "t_max is the last t that counts", quick, t_max_counts},
+                     {"T9", "same bits without instances", standard, same_bits_without_instances},
+                 });
+}
+
+}  // namespace triad

@@ -1,0 +1,86 @@
+#include "check/verdict.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/log.h"
+
+namespace fs = std::filesystem;
+
+namespace triad {
+namespace {
+
+constexpr const char* schema = "triad.verdict/1";
+
+/// Of the quick cases those that each see something else: a few seconds with compilation.
+const std::vector<std::string> first_cases = {"L2",  "M10", "C18d", "C1",  "C2",  "C3", "C7", "C11c",
+                                              "C17", "R1",  "C4",   "C23", "C20", "D4", "D2"};
+
+std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
+    std::string names;
+    for (const std::string& name : verdict.wrong) names += (names.empty() ? "" : ", ") + name;
+    return device.name + " with driver " + device.driver + " computes wrong answers: " + names + ".";
+}
+
+}  // namespace
+
+std::optional<Verdict> load_verdict(const DeviceInfo& device) {
+    const fs::path path = kept_path(device, "checked");
+    std::ifstream file(path);
+    if (path.empty() || !file) return {};
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    if (!json.is_object() || json.value("schema", nlohmann::json()) != schema || !json.contains("wrong"))
+        return {};
+    Verdict verdict;
+    if (!json["wrong"].is_array()) return {};
+    for (const auto& name : json["wrong"]) {
+        if (!name.is_string()) return {};
+        verdict.wrong.push_back(name);
+    }
+    return verdict;
+}
+
+void keep_verdict(const DeviceInfo& device, const Verdict& verdict) {
+    const fs::path path = kept_path(device, "checked");
+    if (path.empty()) return;
+    const nlohmann::json json{{"schema", schema},
+                              {"device", device.name},
+                              {"driver", device.driver},
+                              {"platform", device.platform},
+                              {"wrong", verdict.wrong}};
+    try {
+        fs::create_directories(path.parent_path());
+        write_file(path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    } catch (const std::exception& error) {
+        warn(std::string("The verdict on this device is not kept: ") + error.what());
+    }
+}
+
+Verdict verdict_of(const std::vector<CheckResult>& results) {
+    Verdict verdict;
+    for (const CheckResult& r : results)
+        if (r.ok == false) verdict.wrong.push_back(r.name);
+    return verdict;
+}
+
+Verdict ensure_checked(Device& device) {
+    if (const auto kept = load_verdict(device.info())) return *kept;
+    inform("First use of " + device.info().name +
+           " with this driver: a few seconds to check that its answers are right.");
+    const Verdict verdict = verdict_of(run_cases(device, cases_of(CheckLevel::quick, first_cases),
+                                                 CheckLevel::quick, [](const CheckResult&) {}));
+    keep_verdict(device.info(), verdict);
+    return verdict;
+}
+
+void require_right(const Verdict& verdict, const DeviceInfo& device, bool force) {
+    if (verdict.wrong.empty()) return;
+    if (force) return warn(sentence(verdict, device) + " The picture may be wrong.");
+    throw Error(Exit::device,
+                sentence(verdict, device) +
+                    " triad check says more; choose another --device, or --force to render with it.");
+}
+
+}  // namespace triad

@@ -1,0 +1,31 @@
+#pragma once
+/// The verdict on a device, driver and set of kernels: found once, kept in the cache folder.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/check.h"
+
+namespace triad {
+
+struct Verdict {
+    std::vector<std::string> wrong;  ///< names of the cases that failed; empty: the device is right
+};
+
+/// What an earlier check found; none when there was no check of this device with this driver and these
+/// kernels.
+std::optional<Verdict> load_verdict(const DeviceInfo& device);
+
+/// A cache folder that cannot be written costs a warning only.
+void keep_verdict(const DeviceInfo& device, const Verdict& verdict);
+
+Verdict verdict_of(const std::vector<CheckResult>& results);
+
+/// Before a device is used: the kept verdict, or that of the first cases, a few seconds' worth, which says
+/// so.
+Verdict ensure_checked(Device& device);
+
+/// Throws Error(device) that names the wrong cases, if there are any; with `force` it is a warning.
+void require_right(const Verdict& verdict, const DeviceInfo& device, bool force);
+
+}  // namespace triad
