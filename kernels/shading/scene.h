@@ -25,11 +25,11 @@ typedef struct Scene {
     global const float* srgb;   /* decoded value of every byte of an sRGB texel */
     global const float* albedo; /* directional-albedo tables of shading/bsdf.h */
     global const Light* lights;
-    global const uint* light_cdf;    /* tree of shape frame->lights */
-    global const uint* env_texels;   /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */
-    global const uint* env_rows;     /* tree of shape environment.rows */
+    global const uint* light_cdf;     /* tree of shape frame->lights */
+    global const uint* env_texels;    /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */
+    global const uint* env_rows;      /* tree of shape environment.rows */
     global const ushort* env_columns; /* trees of shape environment.columns */
-    global const float* env_cosines; /* height + 1: cosine of the polar angle of the rows' borders */
+    global const float* env_cosines;  /* height + 1: cosine of the polar angle of the rows' borders */
 } Scene;
 
 #define SCENE_PARAMETERS                                                                                  \
@@ -80,9 +80,13 @@ TRIAD_FUNCTION float3 scale_to_one(float3 v) {
 
 /* v / |v|, or `fallback` when v is zero or not finite. */
 TRIAD_FUNCTION float3 normalize_or(float3 v, float3 fallback) {
-    v = scale_to_one(v);
-    const float length2 = math_dot(v, v);
-    return length2 >= 1.0f && length2 < 16.0f ? v * (1.0f / sqrt(length2)) : fallback;
+    float length2 = math_dot(v, v);
+    if (!(length2 > 0x1.0p-80f && length2 < 0x1.0p80f)) { /* rare; scaling by a power of two changes no bit */
+        v = scale_to_one(v);
+        length2 = math_dot(v, v);
+        if (!(length2 >= 1.0f && length2 < 16.0f)) return fallback;
+    }
+    return v * (1.0f / sqrt(length2));
 }
 
 #endif

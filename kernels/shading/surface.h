@@ -134,7 +134,9 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     const float3 e1 = p1 - p0, e2 = p2 - p0;
     const float3 any = (float3)(0.0f, 1.0f, 0.0f); /* keeps numbers finite where no normal exists */
     /* The edges are scaled first: the product of tiny ones would underflow. */
-    const float3 n = mirrored * normalize_or(math_cross(scale_to_one(e1), scale_to_one(e2)), any);
+    float3 across = math_cross(e1, e2);
+    if (!(max_abs3(across) > 0x1.0p-40f)) across = math_cross(scale_to_one(e1), scale_to_one(e2));
+    const float3 n = mirrored * normalize_or(across, any);
     s.geometric_normal = n;
     s.position = p0 + e1 * u + e2 * v;
     reach = math_max3((float3)(reach, max_abs3(p0), math_max3((float3)(max_abs3(p1), max_abs3(p2), 0.0f))));

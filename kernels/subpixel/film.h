@@ -14,7 +14,9 @@ TRIAD_FUNCTION long film_fixed(float x, float quanta, uint* saturated) {
         *saturated = 1u;
         return q > 0.0f ? 0x4000000000000000L : -0x4000000000000000L;
     }
-    return convert_long_rte(q);
+    /* convert_long_rte, which PoCL emulates with branches: adding 2^23 leaves no fraction, rounded to even */
+    const float shift = copysign(0x1.0p23f, q);
+    return (long)(fabs(q) < 0x1.0p23f ? (q + shift) - shift : q);
 }
 
 TRIAD_FUNCTION int film_is_finite(float4 c) {

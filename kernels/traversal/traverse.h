@@ -13,7 +13,7 @@
  */
 #ifndef TRIAD_TRAVERSAL_TRAVERSE_H
 #define TRIAD_TRAVERSAL_TRAVERSE_H
-#include "common/language.h"
+#include "common/math.h"
 #include "traversal/triangle.h"
 
 #define TRAVERSAL_TESTS_ALPHA 0
@@ -45,10 +45,11 @@ typedef struct SlabRay {
 TRIAD_FUNCTION SlabRay slab_ray(const float origin[3], const float direction[3]) {
     /* A component of zero becomes 2^-40 of the largest: finite, so that no plane yields 0 * inf, far below
      * the padding of the boxes, and relative, so that scaling by a power of two changes no bit. */
-    const float least = fmax(fmax(fabs(direction[0]), fabs(direction[1])), fabs(direction[2])) * 0x1p-40f;
+    const float x = fabs(direction[0]), y = fabs(direction[1]), z = fabs(direction[2]);
+    const float least = math_max(x, math_max(y, z)) * 0x1p-40f;
     SlabRay ray;
     for (int axis = 0; axis < 3; ++axis) {
-        const float inverse = 1.0f / copysign(fmax(fabs(direction[axis]), least), direction[axis]);
+        const float inverse = 1.0f / copysign(math_max(fabs(direction[axis]), least), direction[axis]);
         ray.inverse[axis] = inverse;
         ray.offset[axis] = -origin[axis] * inverse;
         ray.near_row[axis] = (uint)axis * 16u + (inverse < 0.0f ? 8u : 0u);
