@@ -1,5 +1,6 @@
 #include "app/metadata.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "app/report.h"
@@ -26,9 +27,10 @@ Json settings_of(const Film& film) {
 Metadata metadata_of(const Film& film) {
     std::string devices;
     for (const std::string& device : film.devices) devices += (devices.empty() ? "" : "; ") + device;
-    const std::string spp = std::to_string(film.sample_count());
+    const SampleNumbers numbers = film.sample_numbers();
     Metadata metadata = {{"triad:version", TRIAD_VERSION},
-                         {"triad:spp", spp},
+                         {"triad:spp", spp_json(numbers).dump()},
+                         {"triad:samples", std::to_string(numbers.total)},
                          {"triad:relmse", number(estimated_relmse(film))},
                          {"triad:scene", film.scene},
                          {"triad:settings", film.settings},
@@ -37,11 +39,19 @@ Metadata metadata_of(const Film& film) {
                          {"triad:saturated", std::to_string(film.counters[COUNTER_SATURATED])},
                          {"triad:truncated", std::to_string(film.counters[COUNTER_TRUNCATED])},
                          {"triad:cut_energy", number(double(film.counters[COUNTER_CUT_ENERGY]) / 65536)},
-                         {"samplesPerPixel", spp},
+                         {"samplesPerPixel", std::to_string(std::llround(numbers.mean))},
                          {"Software", "triad " TRIAD_VERSION}};
+    if (numbers.least != numbers.most) {
+        metadata["triad:spp_min"] = std::to_string(numbers.least);
+        metadata["triad:spp_max"] = std::to_string(numbers.most);
+    }
     const Json settings = settings_of(film);
     if (settings.contains("seed")) metadata["triad:seed"] = settings["seed"].dump();
     return metadata;
+}
+
+Json spp_json(const SampleNumbers& numbers) {
+    return numbers.least == numbers.most ? Json(numbers.least) : Json(numbers.mean);
 }
 
 bool has_alpha(const Film& film) { return settings_of(film).value("transparent", 0.0) != 0; }

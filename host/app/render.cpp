@@ -104,6 +104,11 @@ std::vector<Channel> layers_of(const RenderOptions& o, Renderer& renderer, const
         if (variance.empty()) variance.assign(film.pixels() * 3, std::numeric_limits<float>::quiet_NaN());
         add("variance", "RGB", variance);
     }
+    if (asked("error")) {
+        std::vector<float> errors = error_map(film);
+        if (errors.empty()) errors.assign(film.pixels(), std::numeric_limits<float>::quiet_NaN());
+        add("error", "Y", errors);
+    }
     return layers;
 }
 
@@ -147,23 +152,33 @@ Exit run(RenderOptions o) {
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 
     const InterruptGuard guard;
-    const SampleRange wanted = o.sample_range();
+    const RenderGoal goal = o.goal();
     const auto render_start = Clock::now();
-    SampleRange done;
+    RenderResult result;
+    Progress progress;
     {
         ProgressDisplay display(style_of(o.progress));
-        done = renderer.render(wanted, [&](const Progress& p) {
-            display.update(
-                {double(p.samples_done) / double(p.samples_wanted), p.seconds, p.samples_done, p.relmse});
+        result = renderer.render_until(goal, [&](const Progress& p) {
+            progress = p;
+            display.update({.done = p.done,
+                            .seconds = p.seconds,
+                            .seconds_left = p.seconds_left,
+                            .spp = p.samples,
+                            .relmse = p.relmse,
+                            .trend = p.trend,
+                            .wanted_relmse = goal.error,
+                            .seconds_to_error = p.seconds_to_error});
             return !guard.interrupted();
         });
     }
     const double render_s = since(render_start);
     const Film film = renderer.film();
-    const bool complete = done == wanted;
+    const SampleNumbers numbers = film.sample_numbers();
+    const bool complete = result.stop != Stop::interrupt;
 
     Metadata metadata = metadata_of(film);
     metadata["triad:driver"] = device.info().driver;
+    metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", render_s);
     if (!o.film_path.empty()) save_film(o.film_path, film);
     write_outputs(o.outputs, device, film, o.style, layers_of(o, renderer, film), metadata);
@@ -178,7 +193,12 @@ Exit run(RenderOptions o) {
                           {"settings_hash", film.settings},
                           {"width", film.width},
                           {"height", film.height},
-                          {"spp", film.sample_count()},
+                          {"spp", spp_json(numbers)},
+                          {"spp_min", numbers.least},
+                          {"spp_max", numbers.most},
+                          {"samples", numbers.total},
+                          {"adaptive", goal.adaptive},
+                          {"stopped_by", to_string(result.stop)},
                           {"seed", o.seed},
                           {"complete", complete},
                           {"load_s", load_s},
@@ -186,6 +206,7 @@ Exit run(RenderOptions o) {
                           {"compile_s", renderer.compile_seconds()},
                           {"render_s", render_s},
                           {"relmse", relmse < 0 ? Json() : Json(relmse)},
+                          {"trend", result.trend ? Json(*result.trend) : Json()},
                           {"rays", n[COUNTER_RAYS]},
                           {"mrays", mrays},
                           {"device", device.info().name},
@@ -201,14 +222,20 @@ Exit run(RenderOptions o) {
     std::string names;
     for (const std::string& path : o.outputs) names += (names.empty() ? "" : ", ") + path;
     if (!o.film_path.empty()) names += (names.empty() ? "" : ", ") + o.film_path;
-    inform(format("%s: %ux%u, %llu samples per pixel in %.1f s, %.2f Mrays/s, relMSE %s", names.c_str(),
-                  film.width, film.height, static_cast<unsigned long long>(film.sample_count()), render_s,
-                  mrays, relmse < 0 ? "not known" : format("%.2g", relmse).c_str()));
+    const std::string spread =
+        numbers.least == numbers.most ? "" : format(" (%u to %u)", numbers.least, numbers.most);
+    inform(format("%s: %ux%u, %s samples per pixel%s in %.1f s, %.2f Mrays/s, relMSE %s", names.c_str(),
+                  film.width, film.height, spp_text(numbers.mean).c_str(), spread.c_str(), render_s, mrays,
+                  relmse < 0 ? "not known" : relmse_text(relmse, result.trend).c_str()));
+    if (goal.error > 0 && result.stop != Stop::error)
+        inform(format("The relMSE of %.2g that was asked for is not reached", goal.error) +
+               (progress.seconds_to_error > 0
+                    ? " and would take about " + clock_time(progress.seconds_to_error) + " more."
+                    : "."));
     if (complete) return Exit::done;
-    inform(format("Stopped early: samples %llu to %llu are there of %llu to %llu.",
-                  static_cast<unsigned long long>(done.begin), static_cast<unsigned long long>(done.end),
-                  static_cast<unsigned long long>(wanted.begin),
-                  static_cast<unsigned long long>(wanted.end)));
+    inform(format("Stopped early: every pixel has samples %llu to %llu.",
+                  static_cast<unsigned long long>(result.range.begin),
+                  static_cast<unsigned long long>(result.range.end)));
     return Exit::interrupted;
 }
 

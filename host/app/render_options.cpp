@@ -7,6 +7,9 @@
 namespace triad {
 namespace {
 
+/// What the fixed point of the film has room for.
+constexpr std::uint64_t most_samples = 1u << 30;
+
 const char* const view_group = "View";
 const char* const light_group = "Light and background";
 const char* const output_group = "Output";
@@ -23,9 +26,26 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::s
 void declare(CLI::App& command, RenderOptions& o) {
     command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
         ->type_name("");
-    command.add_option("--spp", o.spp, "Samples per pixel (default 64)")
-        ->check(CLI::Range(1u, 1u << 30))
+    command
+        .add_option("--spp", o.spp,
+                    "Samples per pixel (default 64; with --error or --time no limit). Of --spp, --error and "
+                    "--time, what is reached first ends the render")
+        ->check(CLI::Range(std::uint64_t(1), most_samples))
         ->type_name("N");
+    command.add_option("--error", o.error, "Stop when the estimated relMSE of the picture is this low")
+        ->check(CLI::PositiveNumber)
+        ->type_name("E");
+    command
+        .add_option("--time", o.time,
+                    "Stop after so many seconds of rendering (loading and compiling not counted)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    add_parsed(command, "--adaptive", "on|off",
+               "Send samples where they lower the error most (default on with --error or --time)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off") throw Error(Exit::usage, "--adaptive " + v + ": on or off.");
+                   o.adaptive = v == "on";
+               });
     command.add_option("--seed", o.seed, "Of the random numbers (default 0)")->type_name("N");
     command
         .add_option("--max-depth", o.max_depth,
@@ -106,10 +126,11 @@ void declare(CLI::App& command, RenderOptions& o) {
     declare_style(command, o.style);
     command
         .add_option("--aov", o.aovs,
-                    "Layers for EXR files: albedo, normal, position, depth, samples, variance, or all")
+                    "Layers for EXR files: albedo, normal, position, depth, samples, variance, error, or all")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "all"}))
+        ->check(
+            CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}))
         ->type_name("LIST")
         ->group(output_group);
     add_parsed(command, "--bins", "BXxBY", "Bins of the film per pixel (default 1x1)",
@@ -146,6 +167,15 @@ void declare(CLI::App& command, RenderOptions& o) {
         ->group(machine_group);
 }
 
+RenderGoal RenderOptions::goal() const {
+    const bool ends_itself = error || time;
+    const std::uint64_t limit = spp.value_or(ends_itself ? most_samples : 64);
+    return {.samples = samples.value_or(SampleRange{0, limit}),
+            .error = error.value_or(0),
+            .seconds = time.value_or(0),
+            .adaptive = adaptive.value_or(ends_itself)};
+}
+
 void complete(RenderOptions& o) {
     // A film alone is a complete result: a part of a larger render.
     if (o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
@@ -153,11 +183,16 @@ void complete(RenderOptions& o) {
     if (std::count(o.outputs.begin(), o.outputs.end(), "-") + (o.json_path == "-") > 1)
         throw Error(Exit::usage, "Only one of the outputs can go to standard output.");
     if (std::find(o.aovs.begin(), o.aovs.end(), "all") != o.aovs.end())
-        o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance"};
+        o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance", "error"};
     const bool exr =
         std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& path) { return is_exr(path); });
     if (!o.aovs.empty() && !exr)
         throw Error(Exit::usage, "--aov needs an .exr output to put the layers in; add -o FILE.exr.");
+    if (o.samples && (o.spp || o.error || o.time || o.adaptive.value_or(false)))
+        throw Error(
+            Exit::usage,
+            "--samples names exactly what is rendered: it cannot be combined with --spp, --error, --time or "
+            "--adaptive on.");
     if (o.crop && ((*o.crop)[2] == 0 || (*o.crop)[3] == 0))
         throw Error(Exit::usage, "--crop: width and height must be at least 1.");
 }

@@ -7,7 +7,7 @@
 
 #include "app/output.h"
 #include "base/math.h"
-#include "scene/film.h"
+#include "render/schedule.h"
 
 namespace triad {
 
@@ -18,7 +18,9 @@ struct RenderOptions {
     bool force = false;  ///< render on a device that computes wrong answers
     std::optional<uvec2> size;
     std::optional<std::array<unsigned, 4>> crop;
-    std::uint64_t spp = 64;
+    std::optional<std::uint64_t> spp;  ///< 64 where nothing else ends the render
+    std::optional<double> error, time;
+    std::optional<bool> adaptive;
     std::optional<SampleRange> samples;
     std::uint32_t seed = 0;
     unsigned max_depth = 0;
@@ -40,8 +42,8 @@ struct RenderOptions {
     std::vector<std::string> aovs;
     std::string progress = "auto";
 
-    /// What decides the picture beside the scene, as text; its hash names the settings in films.
-    SampleRange sample_range() const { return samples.value_or(SampleRange{0, spp}); }
+    /// What ends the render.
+    RenderGoal goal() const;
 };
 
 /// Declares the options on a subcommand. `options` must outlive the parsing.

@@ -23,7 +23,19 @@ unsigned terminal_columns() {
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-std::string relmse_text(double relmse) { return relmse < 0 ? "?" : format("%.2g", relmse); }
+std::string left_text(double seconds) { return seconds < 0 ? "?" : clock_time(seconds); }
+
+/// What is said of the error, and when the one that was asked for will be reached.
+std::string error_text(const ProgressState& state) {
+    std::string text = "relMSE " + relmse_text(state.relmse, state.trend);
+    if (state.wanted_relmse > 0)
+        text += format(", %.2g in ", state.wanted_relmse) + left_text(state.seconds_to_error);
+    return text;
+}
+
+std::string json_number(double value, const char* pattern) {
+    return value < 0 ? "null" : format(pattern, value);
+}
 
 }  // namespace
 
@@ -32,9 +44,12 @@ ProgressStyle automatic_progress() {
     return ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
-double seconds_left(const ProgressState& state) {
-    return state.done > 0 ? state.seconds * (1 - state.done) / state.done : -1;
+std::string relmse_text(double relmse, const std::optional<double>& trend) {
+    if (relmse < 0) return "?";
+    return format("%.2g", relmse) + (trend ? format(" ~ spp^%.2f", *trend) : "");
 }
+
+std::string spp_text(double spp) { return format(spp == std::floor(spp) ? "%.0f" : "%.1f", spp); }
 
 std::string clock_time(double seconds) {
     const auto whole = static_cast<long long>(std::ceil(seconds));
@@ -43,11 +58,9 @@ std::string clock_time(double seconds) {
 }
 
 std::string bar_text(const ProgressState& state, unsigned columns) {
-    const double left = seconds_left(state);
-    const std::string numbers =
-        format(" %3.0f %%  %s left  %llu spp  relMSE ", std::floor(100 * state.done),
-               left < 0 ? "?" : clock_time(left).c_str(), static_cast<unsigned long long>(state.spp)) +
-        relmse_text(state.relmse);
+    const std::string numbers = format(" %3.0f %%  %s left  %s spp  ", std::floor(100 * state.done),
+                                       left_text(state.seconds_left).c_str(), spp_text(state.spp).c_str()) +
+                                error_text(state);
     // Two brackets, and the last column stays free: some terminals wrap when it is written.
     const int room = std::clamp(static_cast<int>(columns) - static_cast<int>(numbers.size()) - 3, 0, 50);
     if (room < 4) return numbers.substr(1, columns > 1 ? columns - 1 : 1);
@@ -56,20 +69,18 @@ std::string bar_text(const ProgressState& state, unsigned columns) {
 }
 
 std::string line_text(const ProgressState& state) {
-    const double left = seconds_left(state);
-    return format("%.0f %% after %s, %s left, %llu spp, relMSE ", std::floor(100 * state.done),
-                  clock_time(state.seconds).c_str(), left < 0 ? "?" : clock_time(left).c_str(),
-                  static_cast<unsigned long long>(state.spp)) +
-           relmse_text(state.relmse);
+    return format("%.0f %% after %s, %s left, %s spp, ", std::floor(100 * state.done),
+                  clock_time(state.seconds).c_str(), left_text(state.seconds_left).c_str(),
+                  spp_text(state.spp).c_str()) +
+           error_text(state);
 }
 
 std::string json_text(const ProgressState& state) {
-    const double left = seconds_left(state);
-    return format(
-        "{\"progress\": %.6g, \"seconds\": %.3f, \"seconds_left\": %s, \"spp\": %llu, \"relmse\": %s}",
-        state.done, state.seconds, left < 0 ? "null" : format("%.3f", left).c_str(),
-        static_cast<unsigned long long>(state.spp),
-        state.relmse < 0 ? "null" : format("%.6g", state.relmse).c_str());
+    return format("{\"progress\": %.6g, \"seconds\": %.3f, \"seconds_left\": ", state.done, state.seconds) +
+           json_number(state.seconds_left, "%.3f") + format(", \"spp\": %.9g, \"relmse\": ", state.spp) +
+           json_number(state.relmse, "%.6g") +
+           ", \"trend\": " + (state.trend ? format("%.4g", *state.trend) : "null") +
+           ", \"seconds_to_error\": " + json_number(state.seconds_to_error, "%.3f") + "}";
 }
 
 ProgressDisplay::~ProgressDisplay() {

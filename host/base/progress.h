@@ -2,7 +2,7 @@
 /// How far a long job is, on standard error: a bar on a terminal, one line each 10 s elsewhere, JSON lines on
 /// request.
 #include <chrono>
-#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace triad {
@@ -14,14 +14,20 @@ ProgressStyle automatic_progress();
 
 /// How far a render is.
 struct ProgressState {
-    double done = 0;        ///< of the whole, 0 to 1
-    double seconds = 0;     ///< since the work began
-    std::uint64_t spp = 0;  ///< samples per pixel so far
-    double relmse = -1;     ///< current estimate; negative: not known yet
+    double done = 0;               ///< of the whole, 0 to 1
+    double seconds = 0;            ///< since the work began
+    double seconds_left = -1;      ///< until the end; negative: not known yet
+    double spp = 0;                ///< samples per pixel so far
+    double relmse = -1;            ///< current estimate; negative: not known yet
+    std::optional<double> trend;   ///< relMSE falls as spp^trend
+    double wanted_relmse = 0;      ///< 0: no error was asked for
+    double seconds_to_error = -1;  ///< until it is reached; negative: not known yet
 };
 
-/// Seconds until the end at the pace so far; negative while there is no pace.
-double seconds_left(const ProgressState& state);
+/// "0.0021 ~ spp^-1.02", or less while less is known.
+std::string relmse_text(double relmse, const std::optional<double>& trend);
+/// "64", or "62.3" where it is no whole number.
+std::string spp_text(double spp);
 /// "1:02:03" or "2:03", rounded up.
 std::string clock_time(double seconds);
 /// One line of each style, without a line end. `columns` is the width of the terminal.

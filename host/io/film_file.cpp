@@ -146,6 +146,9 @@ Film load_film(const std::filesystem::path& path) {
     film.sums = take<std::int64_t>(at, sums);
     film.half_sums = take<std::int64_t>(at, pixels * 3);
     film.samples = take<std::uint32_t>(at, pixels);
+    const std::uint64_t least = film.sample_count();
+    for (const std::uint32_t n : film.samples)
+        if (n < least) refuse("some pixel holds fewer samples than its ranges say");
     return film;
 }
 

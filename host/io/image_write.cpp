@@ -22,7 +22,7 @@ void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& by
 
 /// Depths, positions, counts and weights lose their meaning in half precision.
 bool must_be_float(const std::string& channel) {
-    for (const char* layer : {"depth.", "position.", "samplecount.", "triad_weight"})
+    for (const char* layer : {"depth.", "position.", "samplecount.", "error.", "triad_weight"})
         if (channel.starts_with(layer)) return true;
     return channel == "Z";
 }

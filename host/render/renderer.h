@@ -6,18 +6,30 @@
 
 #include "device/device.h"
 #include "render/features.h"
+#include "render/schedule.h"
 #include "render/settings.h"
 #include "scene/film.h"
 #include "scene/scene.h"
 
 namespace triad {
 
-/// State after a pass. Samples are per pixel.
+/// State after a pass.
 struct Progress {
-    std::uint64_t samples_done = 0, samples_wanted = 0;
+    double samples = 0;  ///< per pixel; their mean where they differ
     double seconds = 0;  ///< since render() began
-    double relmse = -1;  ///< estimated; negative: not known yet
-    std::uint64_t rays = 0;
+    double seconds_left =
+        -1;  ///< until the first goal is reached, at the pace and trend so far; negative: not known yet
+    double seconds_to_error = -1;  ///< until the error asked for is; negative: none was, or not known yet
+    double done = 0;               ///< of the whole, 0 to 1
+    double relmse = -1;            ///< the latest estimate; negative: not known yet
+    std::optional<double> trend;   ///< slope of log relMSE against log samples; none: not known yet
+    std::uint64_t rays = 0;        ///< at the latest estimate
+};
+
+struct RenderResult {
+    SampleRange range;  ///< what every pixel was given; adaptive: Film::samples says what beyond that
+    Stop stop = Stop::samples;
+    std::optional<double> trend;  ///< as in Progress, of the whole render
 };
 
 class Renderer {
@@ -30,8 +42,10 @@ class Renderer {
              const std::optional<Features>& features = {});
     ~Renderer();
 
-    /// Adds these samples to the film, pass by pass; report is called after every pass and returns false to
-    /// stop there. Returns the range that was rendered.
+    /// Adds samples to the film, pass by pass, until a goal is reached; report is called after every pass and
+    /// returns false to stop there. A goal of error, and adaptive sampling, want an empty film.
+    RenderResult render_until(const RenderGoal& goal, const std::function<bool(const Progress&)>& report);
+    /// Adds these samples to every pixel. Returns the range that was rendered.
     SampleRange render(SampleRange range, const std::function<bool(const Progress&)>& report);
 
     /// The film so far, read from the device. Equal work gives equal bytes.
@@ -51,6 +65,7 @@ class Renderer {
     std::uint64_t device_bytes() const;
 
   private:
+    friend class RenderLoop;
     struct State;
     std::unique_ptr<State> state_;
 };

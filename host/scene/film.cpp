@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
+#include <numeric>
 
 #include "base/error.h"
-#include "base/parallel_for.h"
 
 namespace triad {
 namespace {
@@ -54,93 +53,6 @@ std::vector<SampleRange> join(std::vector<SampleRange> ranges) {
     return joined;
 }
 
-/// Samples of [0, n) that fall into the first half: sample s belongs to half (s / bins) & 1.
-std::uint64_t first_half_below(std::uint64_t n, std::uint64_t bins) {
-    return n / (2 * bins) * bins + std::min(n % (2 * bins), bins);
-}
-
-/// How many samples of a pixel fell into each half.
-std::pair<std::uint64_t, std::uint64_t> half_counts(const Film& film) {
-    std::uint64_t first = 0;
-    for (const SampleRange& range : film.ranges)
-        first += first_half_below(range.end, film.bins()) - first_half_below(range.begin, film.bins());
-    return {first, film.sample_count() - first};
-}
-
-/// Of one channel of one pixel: its mean, and an unbiased estimate of that mean's variance.
-struct Estimate {
-    float mean, variance;
-};
-
-/// Halves of nA and nB samples with means A and B have Var(A - B) = s^2 (1/nA + 1/nB), and the mean of all
-/// has s^2 / (nA + nB): so (A - B)^2 nA nB / (nA + nB)^2 is unbiased for it.
-std::vector<Estimate> estimate_pixels(const Film& film, double first, double second) {
-    std::vector<Estimate> estimates(film.pixels() * 3);
-    const double count = first + second, weight = first / count * (second / count);
-    parallel_for(film.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            if (film.samples[p] == 0) continue;
-            const std::array<double, 4> mean = pixel_mean(film, p);
-            const double unit = std::ldexp(1.0, -film.quanta_log2) * count / film.samples[p];
-            for (std::size_t c = 0; c < 3; ++c) {
-                const double a = double(film.half_sums[p * 3 + c]) * unit;  // nA A
-                const double difference = a / first - (mean[c] * count - a) / second;
-                estimates[p * 3 + c] = {float(mean[c]), float(weight * difference * difference)};
-            }
-        }
-    });
-    return estimates;
-}
-
-/// Sums over pixels: how many, their means, the squares of these, their variances.
-struct Window {
-    double pixels = 0, mean = 0, square = 0, variance = 0;
-
-    void add(const Window& w, double sign = 1.0) {
-        pixels += sign * w.pixels, mean += sign * w.mean, square += sign * w.square,
-            variance += sign * w.variance;
-    }
-};
-
-Window window_of(const Estimate& e) { return {1.0, e.mean, double(e.mean) * e.mean, e.variance}; }
-
-/// 1 / (r^2 + .01), r the unknown true value. The pixel's own noisy mean will not do alone: it is correlated
-/// with the variance estimate (where a bright path was found both are too high), which makes the error look
-/// several times too small at few samples. Its neighbours' mean has independent noise, but other content. So
-/// the two are blended as in Lee's local-statistics filter (1980): by the share of the neighbours' spread
-/// that is content rather than noise.
-double inverse_square(const Estimate& own, const Window& neighbours) {
-    const double at_own = 1.0 / (double(own.mean) * own.mean + 0.01), n = neighbours.pixels;
-    if (n < 2.0) return at_own;
-    const double mean = neighbours.mean / n;
-    const double spread = (neighbours.square - n * mean * mean) / (n - 1.0);
-    const double content = std::max(0.0, spread - neighbours.variance / n);
-    const double k = spread > 0.0 ? content / spread : 0.0;
-    return k * at_own + (1.0 - k) / (mean * mean + 0.01);
-}
-
-/// Sum of variance / (r^2 + .01) over the pixels and channels of row y, neighbours taken from 5 x 5 pixels.
-/// `columns`: room for a Window per pixel and channel.
-double relmse_of_row(const Film& film, const std::vector<Estimate>& estimates, std::size_t y,
-                     std::vector<Window>& columns) {
-    constexpr std::size_t radius = 2;
-    const std::size_t width = film.width, row = width * 3;
-    std::fill(columns.begin(), columns.end(), Window{});
-    for (std::size_t v = y - std::min(y, radius); v < std::min<std::size_t>(y + radius + 1, film.height); ++v)
-        for (std::size_t i = 0; i < row; ++i) columns[i].add(window_of(estimates[v * row + i]));
-    double sum = 0.0;
-    for (std::size_t x = 0; x < width; ++x)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Estimate& own = estimates[y * row + x * 3 + c];
-            Window neighbours;
-            for (std::size_t u = x - std::min(x, radius); u < std::min(x + radius + 1, width); ++u)
-                neighbours.add(columns[u * 3 + c]);
-            neighbours.add(window_of(own), -1.0);
-            sum += own.variance * inverse_square(own, neighbours);
-        }
-    return sum;
-}
-
 }  // namespace
 
 std::uint64_t Film::sample_count() const {
@@ -149,9 +61,30 @@ std::uint64_t Film::sample_count() const {
     return count;
 }
 
+bool Film::is_even() const {
+    const std::uint64_t count = sample_count();
+    return std::all_of(samples.begin(), samples.end(), [&](std::uint32_t n) { return n == count; });
+}
+
+SampleNumbers Film::sample_numbers() const {
+    SampleNumbers n;
+    if (samples.empty()) return n;
+    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+    n.least = *least, n.most = *most;
+    n.total = std::accumulate(samples.begin(), samples.end(), std::uint64_t(0));
+    n.mean = double(n.total) / double(samples.size());
+    return n;
+}
+
 Film merge(std::span<const Film> parts) {
     if (parts.empty()) throw Error(Exit::usage, "There is nothing to merge: name at least one film.");
     Film whole = parts[0];
+    for (const Film& part : parts)
+        if (parts.size() > 1 && !part.is_even())
+            throw Error(
+                Exit::scene,
+                "The films cannot be merged: one was sampled adaptively, so that its pixels hold different "
+                "numbers of samples. Render parts of a picture with --samples, or with --adaptive off.");
     std::vector<SampleRange> ranges = whole.ranges;
     for (const Film& part : parts.subspan(1)) {
         check_same_picture(whole, part);
@@ -192,29 +125,6 @@ std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel) {
     const double unit = std::ldexp(1.0, -film.quanta_log2) / film.samples[pixel];
     for (double& value : mean) value *= unit;
     return mean;
-}
-
-std::vector<float> mean_variance(const Film& film) {
-    const auto [first, second] = half_counts(film);
-    if (first == 0 || second == 0) return {};
-    const std::vector<Estimate> estimates = estimate_pixels(film, double(first), double(second));
-    std::vector<float> variance(estimates.size());
-    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = estimates[i].variance;
-    return variance;
-}
-
-double estimated_relmse(const Film& film) {
-    const auto [first, second] = half_counts(film);
-    if (first == 0 || second == 0 || film.pixels() == 0) return -1.0;
-    const std::vector<Estimate> estimates = estimate_pixels(film, double(first), double(second));
-    std::vector<double> row_sums(film.height);
-    parallel_for(film.height, 8, [&](std::size_t begin, std::size_t end) {
-        std::vector<Window> columns(std::size_t(film.width) * 3);
-        for (std::size_t y = begin; y < end; ++y) row_sums[y] = relmse_of_row(film, estimates, y, columns);
-    });
-    double sum = 0.0;
-    for (const double row : row_sums) sum += row;
-    return sum / (3.0 * double(film.pixels()));
 }
 
 }  // namespace triad

@@ -14,6 +14,13 @@ struct SampleRange {
     bool operator==(const SampleRange&) const = default;
 };
 
+/// How many samples the pixels of a film hold.
+struct SampleNumbers {
+    std::uint64_t total = 0;
+    std::uint32_t least = 0, most = 0;  ///< of a pixel
+    double mean = 0;                    ///< per pixel
+};
+
 /// Sums of samples in 64-bit fixed point: value = sum / 2^quanta_log2 / samples. Adding films is adding
 /// integers, so that merging any parts in any order gives the bytes of one run. Pixels are row-major over the
 /// crop.
@@ -22,10 +29,12 @@ struct Film {
     unsigned x = 0, y = 0, width = 0, height = 0;  ///< the crop that this film covers
     unsigned bins_x = 1, bins_y = 1;
     int quanta_log2 = 0;
-    std::vector<std::int64_t> sums;           ///< [pixel][bin row-major][R, G, B, alpha]
-    std::vector<std::int64_t> half_sums;      ///< [pixel][R, G, B]: samples of the first half only
-    std::vector<std::uint32_t> samples;       ///< per pixel, all bins together
-    std::vector<SampleRange> ranges;          ///< sorted, disjoint, coalesced: what every pixel holds
+    std::vector<std::int64_t> sums;       ///< [pixel][bin row-major][R, G, B, alpha]
+    std::vector<std::int64_t> half_sums;  ///< [pixel][R, G, B]: samples of the first half only
+    std::vector<std::uint32_t> samples;   ///< per pixel, all bins together
+    /// Sorted, disjoint, coalesced: what every pixel holds. Where sampling was adaptive, pixels go on from
+    /// the end of the last range without gaps, as far as `samples` says.
+    std::vector<SampleRange> ranges;
     std::array<std::uint64_t, 5> counters{};  ///< COUNTER_* of kernels/types.h
     std::string scene, settings;              ///< hashes; films merge only when both are equal
     std::string settings_text;                ///< JSON of the settings that decide the picture
@@ -33,11 +42,14 @@ struct Film {
 
     std::size_t pixels() const { return std::size_t(width) * height; }
     std::size_t bins() const { return std::size_t(bins_x) * bins_y; }
-    std::uint64_t sample_count() const;  ///< per pixel: the total length of ranges
+    std::uint64_t sample_count() const;  ///< that every pixel holds: the total length of ranges
+    bool is_even() const;                ///< every pixel holds these and no more
+    SampleNumbers sample_numbers() const;
 };
 
-/// The union of the parts. Throws Error(scene) when they are of different pictures, Error(incomplete) when
-/// two ranges overlap (the sentence names the range). Holes are no error here: see holes().
+/// The union of the parts. Throws Error(scene) when they are of different pictures or one is not even,
+/// Error(incomplete) when two ranges overlap (the sentence names the range). Holes are no error here: see
+/// holes().
 Film merge(std::span<const Film> parts);
 
 /// What is missing in [0, end).
@@ -50,10 +62,19 @@ std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel);
 /// not known yet (a half without samples).
 std::vector<float> mean_variance(const Film& film);
 
-/// Estimated relMSE of the picture: mean over pixels and channels of var / (r^2 + 0.01), where var is the
-/// variance of the pixel's mean, from its two independently scrambled halves, and r^2 is estimated so that
-/// noise in it does not bias the result (docs/film.md). Negative: not known yet (a half without samples).
-/// Costs tens of nanoseconds per pixel.
+/// Which pixels around help to estimate r^2: all, or those of the pixel's own set (x ^ y) & 1 of a
+/// chessboard, so that nothing of the other set is in the result.
+enum class Neighbours { all, own_set };
+
+/// Estimated squared relative error of every pixel: mean over channels of var / (r^2 + 0.01), where var is
+/// the variance of the pixel's mean, from its two independently scrambled halves, and r^2 is estimated so
+/// that noise in it does not bias the result (docs/film.md). Single pixels are very noisy (one degree of
+/// freedom); sums over many are not. Empty: not known yet (a half without samples). Costs tens of nanoseconds
+/// per pixel.
+std::vector<float> error_map(const Film& film, Neighbours which = Neighbours::all);
+
+/// Estimated relMSE of the picture: the mean of error_map(). Negative: not known yet.
 double estimated_relmse(const Film& film);
+double estimated_relmse(std::span<const float> error_map);
 
 }  // namespace triad

@@ -2,8 +2,8 @@
 // are fixed, and equal pictures would be called different once in a million seeds.
 #include <gtest/gtest.h>
 
-#include "../analytic/analytic_scene.h"
 #include "kernels/types.h"
+#include "lit_room.h"
 #include "measure/statistics.h"
 
 namespace triad::analytic {
@@ -11,27 +11,8 @@ namespace {
 
 constexpr unsigned size = 48, batches = 12, spp = 16;
 
-/// A room corner with a glossy block, under a sky and a square light cut into cells x cells.
-Scene lit_room(unsigned cells, bool sky_as_map) {
-    Builder b;
-    Material wall;
-    wall.metallic = 0.0f, wall.roughness = 0.6f;
-    wall.base_colour = {0.7f, 0.6f, 0.4f, 1.0f};
-    Material metal;
-    metal.roughness = 0.4f;
-    b.add(shapes::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), wall);
-    b.add(shapes::quad({-2, 0, -1}, {4, 0, 0}, {0, 3, 0}), wall);
-    b.add(shapes::box({-0.5f, 0, -0.5f}, {0.3f, 0.8f, 0.3f}), metal);
-    b.add(shapes::quad({-0.6f, 2, -0.5f}, {1, 0, 0}, {0, 0, 1}, cells, cells), emitter(4.0f));
-    const float radiance = 0.25f;
-    if (sky_as_map)
-        b.scene.environment = EnvironmentMap{16, 8, std::vector<float>(16 * 8 * 3, radiance)};
-    else
-        b.sky(radiance);
-    return b.scene;
-}
-
-std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0) {
+std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0,
+                          bool adaptive = false) {
     validate(scene);
     std::vector<Batch> result;
     for (unsigned k = 0; k < batches; ++k) {
@@ -40,10 +21,12 @@ std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins =
         settings.bins_x = settings.bins_y = bins;
         settings.seed = first_seed + k;
         settings.max_depth = max_depth;
-        settings.view = look_at({0.8, 1.3, 3.2}, {0, 0.6, 0}, 0.8, 1.0);
+        settings.view = room_view();
         Renderer renderer(test_device(), scene, settings);
-        renderer.render({0, spp}, [](const Progress&) { return true; });
+        renderer.render_until({.samples = {0, spp}, .adaptive = adaptive},
+                              [](const Progress&) { return true; });
         const Film film = renderer.film();
+        EXPECT_NE(film.is_even(), adaptive);
         EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);
         Batch batch{size, size, std::vector<float>(std::size_t(size) * size * 3)};
         for (std::size_t p = 0; p < film.pixels(); ++p) {
@@ -76,6 +59,10 @@ TEST(Agreement, an_even_sky_shines_as_a_map_of_it_that_is_sampled) {
 }
 
 TEST(Agreement, bins_change_no_mean) { expect_agreement(render(lit_room(1, false), 500, 2)); }
+
+TEST(Agreement, adaptive_sampling_from_four_samples_on_changes_no_mean) {
+    expect_agreement(render(lit_room(1, false), 800, 1, 0, true));
+}
 
 TEST(Agreement, one_tile_that_is_five_percent_brighter_is_found) {
     auto biased = render(lit_room(1, false), 600);

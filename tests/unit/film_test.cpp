@@ -99,6 +99,25 @@ TEST(Film, merging_different_pictures_is_refused) {
     }
 }
 
+TEST(Film, adaptive_films_do_not_merge_and_say_why) {
+    std::vector<Film> parts{synthetic({0, 2}), synthetic({2, 4})};
+    parts[0].samples[3] = 4;
+    expect_contains(sentence_of(Exit::scene, [&] { merge(parts); }), "adaptively");
+    EXPECT_EQ(merge(std::span<const Film>(parts.data(), 1)).samples, parts[0].samples);
+}
+
+TEST(Film, sample_numbers_are_those_of_its_pixels) {
+    Film film = synthetic({0, 4});
+    EXPECT_TRUE(film.is_even());
+    film.samples[3] = 16;
+    EXPECT_FALSE(film.is_even());
+    const SampleNumbers n = film.sample_numbers();
+    EXPECT_EQ(n.least, 4u);
+    EXPECT_EQ(n.most, 16u);
+    EXPECT_EQ(n.total, 60u);
+    EXPECT_DOUBLE_EQ(n.mean, 5.0);
+}
+
 TEST(Film, devices_are_sorted_and_unique_after_a_merge) {
     std::vector<Film> parts{synthetic({0, 2}), synthetic({2, 4}), synthetic({4, 5})};
     parts[0].devices = {"b"}, parts[1].devices = {"a"}, parts[2].devices = {"b"};
@@ -170,6 +189,47 @@ TEST(FilmError, estimate_is_right_within_a_tenth_at_any_number_of_samples) {
         EXPECT_GT(ratios[50], 0.9) << samples;
         EXPECT_LT(ratios[50], 1.1) << samples;
     }
+}
+
+// A pixel that went on has more samples in each half; its variance is counted by its own numbers.
+TEST(FilmError, uneven_pixels_are_measured_by_their_own_halves) {
+    for (const unsigned bins : {1u, 2u}) {
+        const Film even = synthetic({3, 3 + 8 * bins}, bins), longer = synthetic({3, 3 + 13 * bins}, bins);
+        Film film = even;
+        const std::size_t p = 6, n = 4 * bins;
+        std::copy_n(longer.sums.begin() + p * n, n, film.sums.begin() + p * n);
+        std::copy_n(longer.half_sums.begin() + p * 3, 3, film.half_sums.begin() + p * 3);
+        film.samples[p] = longer.samples[p];
+        const auto found = mean_variance(film), at_even = mean_variance(even),
+                   at_longer = mean_variance(longer);
+        for (std::size_t i = 0; i < found.size(); ++i)
+            EXPECT_EQ(found[i], i / 3 == p ? at_longer[i] : at_even[i]) << i;
+    }
+}
+
+TEST(FilmError, the_map_of_one_set_reads_nothing_of_the_other) {
+    const Film film = synthetic({0, 8});
+    Film changed = film;
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        if ((p % 4 ^ p / 4) & 1)
+            for (std::size_t c = 0; c < 3; ++c)
+                changed.sums[p * 4 + c] *= 3, changed.half_sums[p * 3 + c] *= 2;
+    const auto before = error_map(film, Neighbours::own_set), after = error_map(changed, Neighbours::own_set);
+    unsigned differ = 0;
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        if ((p % 4 ^ p / 4) & 1)
+            differ += before[p] != after[p];
+        else
+            EXPECT_EQ(before[p], after[p]) << p;
+    EXPECT_GT(differ, 0u);
+    EXPECT_NE(error_map(film)[0], error_map(changed)[0]);
+}
+
+TEST(FilmError, is_the_mean_of_its_map) {
+    const Film film = synthetic({0, 8});
+    double sum = 0;
+    for (const float e : error_map(film)) sum += e;
+    EXPECT_DOUBLE_EQ(estimated_relmse(film), sum / double(film.pixels()));
 }
 
 TEST(FilmError, is_unknown_while_a_half_is_empty) {
@@ -252,6 +312,17 @@ TEST(FilmFile, absurd_sizes_are_refused_before_memory_is_asked_for) {
     std::memcpy(text.data() + 16, &length, sizeof length);
     write_file(folder / "huge.film", text);
     expect_contains(sentence_of(Exit::scene, [&] { load_film(folder / "huge.film"); }), "bytes of sums");
+}
+
+TEST(FilmFile, keeps_how_many_samples_each_pixel_has_and_refuses_too_few) {
+    const TemporaryFolder folder;
+    Film film = synthetic({0, 4});
+    film.samples[3] = 40;
+    save_film(folder / "uneven.film", film);
+    EXPECT_EQ(load_film(folder / "uneven.film").samples, film.samples);
+    film.samples[3] = 3;
+    save_film(folder / "few.film", film);
+    expect_contains(sentence_of(Exit::scene, [&] { load_film(folder / "few.film"); }), "fewer samples");
 }
 
 TEST(FilmFile, a_full_disk_is_a_sentence_and_leaves_the_device_alone) {

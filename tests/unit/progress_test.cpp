@@ -5,11 +5,6 @@
 
 using namespace triad;
 
-TEST(Progress, time_left_follows_the_pace) {
-    EXPECT_DOUBLE_EQ(seconds_left({0.25, 10, 4, -1}), 30);
-    EXPECT_LT(seconds_left({0, 10, 0, -1}), 0);
-}
-
 TEST(Progress, clock_rounds_up_and_carries) {
     EXPECT_EQ(clock_time(0), "0:00");
     EXPECT_EQ(clock_time(59.2), "1:00");
@@ -19,17 +14,29 @@ TEST(Progress, clock_rounds_up_and_carries) {
 
 TEST(Progress, bar_never_reaches_the_last_column) {
     for (unsigned columns = 1; columns < 200; ++columns)
-        EXPECT_LT(bar_text({0.5, 3600, 123456, 0.0123}, columns).size(), std::max(columns, 2u)) << columns;
+        EXPECT_LT(bar_text({0.5, 3600, 3600, 123456, 0.0123, -1.02, 0.001, 7200}, columns).size(),
+                  std::max(columns, 2u))
+            << columns;
 }
 
 TEST(Progress, not_done_is_never_shown_as_100_percent) {
-    EXPECT_NE(line_text({0.9999, 100, 64, 0.01}).find("99 %"), std::string::npos);
-    EXPECT_NE(bar_text({0.9999, 100, 64, 0.01}, 100).find(" 99 %"), std::string::npos);
+    EXPECT_NE(line_text({.done = 0.9999, .seconds = 100}).find("99 %"), std::string::npos);
+    EXPECT_NE(bar_text({.done = 0.9999, .seconds = 100}, 100).find(" 99 %"), std::string::npos);
+}
+
+TEST(Progress, says_the_error_its_trend_and_when_it_will_be_as_asked_for) {
+    const ProgressState state{0.25, 10, 30, 62.5, 0.0041, -1.02, 0.001, 90};
+    EXPECT_EQ(line_text(state),
+              "25 % after 0:10, 0:30 left, 62.5 spp, relMSE 0.0041 ~ spp^-1.02, 0.001 in 1:30");
+    EXPECT_NE(bar_text(state, 120).find("relMSE 0.0041 ~ spp^-1.02, 0.001 in 1:30"), std::string::npos);
+    EXPECT_EQ(line_text({.done = 0.25, .seconds = 10, .spp = 4}), "25 % after 0:10, ? left, 4 spp, relMSE ?");
 }
 
 TEST(Progress, json_says_null_for_what_is_not_known) {
-    EXPECT_EQ(json_text({0, 0, 0, -1}),
-              R"({"progress": 0, "seconds": 0.000, "seconds_left": null, "spp": 0, "relmse": null})");
-    EXPECT_EQ(json_text({0.5, 2, 8, 0.25}),
-              R"({"progress": 0.5, "seconds": 2.000, "seconds_left": 2.000, "spp": 8, "relmse": 0.25})");
+    EXPECT_EQ(json_text({}),
+              R"({"progress": 0, "seconds": 0.000, "seconds_left": null, "spp": 0, "relmse": null, )"
+              R"("trend": null, "seconds_to_error": null})");
+    EXPECT_EQ(json_text({0.5, 2, 2, 8, 0.25, -0.5, 0.125, 14}),
+              R"({"progress": 0.5, "seconds": 2.000, "seconds_left": 2.000, "spp": 8, "relmse": 0.25, )"
+              R"("trend": -0.5, "seconds_to_error": 14.000})");
 }

@@ -1,0 +1,31 @@
+#pragma once
+/// Adaptive sampling: where the next samples lower the error of the picture most.
+///
+/// Samples of a pixel that decide how many more it gets bias its mean: a pixel that has missed its bright
+/// paths so far looks finished and stays too dark (Kirk and Arvo 1991, "Unbiased sampling techniques for
+/// image synthesis"). Here the pixels of a tile are two sets, like the squares of a chessboard, and each set
+/// is given samples by what the other set and the tiles around have shown: neighbours have alike noise but
+/// independent samples.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/film.h"
+
+namespace triad {
+
+/// Samples per pixel of set s of tile t, at [2 t + s]. Tiles of FILM_TILE pixels, row-major over the film's
+/// crop; set s has the pixels with ((x ^ y) & 1) == s.
+using SetSamples = std::vector<std::uint32_t>;
+
+/// Pixels of each set: less than half a tile at the film's right and bottom edge, possibly none.
+std::vector<std::uint32_t> set_pixels(unsigned width, unsigned height);
+
+/// What each set should hold for the picture's least estimated relMSE at `mean` samples per pixel, given that
+/// it holds `have`. `errors`: error_map(film, Neighbours::own_set). Gives whole multiples of `step` samples,
+/// never less than `have`, and something to some set. Since the error of a set with n samples is s / n, the
+/// sum over sets of s / n at a given sum of n is least for n proportional to sqrt(s).
+SetSamples distribute(const Film& film, std::span<const float> errors, const SetSamples& have, double mean,
+                      unsigned step);
+
+}  // namespace triad

@@ -1,0 +1,197 @@
+/// Renderer::render: launches until a goal is reached.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "render/adaptive.h"
+#include "render/renderer_state.h"
+
+namespace triad {
+namespace {
+
+/// Of a launch: watchdogs, cancelling and progress want short ones, overhead long ones.
+constexpr double launch_seconds = 0.05;
+/// Launches between two reports, where one sample per pixel takes no longer.
+constexpr double launches_per_pass = 4;
+/// Samples of a pixel in one launch at most.
+constexpr double longest_run = 256;
+
+}  // namespace
+
+/// One call of Renderer::render.
+class RenderLoop {
+  public:
+    RenderLoop(Renderer::State& state, const RenderGoal& goal,
+               const std::function<bool(const Progress&)>& report)
+        : s_(state),
+          goal_(goal),
+          report_(report),
+          schedule_(goal, unsigned(state.film.bins())),
+          pixels_(set_pixels(state.film.width, state.film.height)),
+          have_(pixels_.size()),
+          ranges_before_(state.film.ranges),
+          samples_before_(double(state.film.sample_count())) {
+        assert(ranges_before_.empty() || (!goal.adaptive && goal.error == 0));
+    }
+
+    RenderResult run() {
+        while (const auto end = schedule_.next_round(samples(), seconds())) {
+            reach(wanted_at(*end));
+            if (interrupted_) break;
+            if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
+        }
+        if (!trend_.empty() || goal_.error > 0) estimate(false);
+        const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
+        s_.film.ranges = ranges_before_;
+        if (range.end > range.begin) s_.film.ranges.push_back(range);
+        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), trend_.slope()};
+    }
+
+  private:
+    Renderer::State& s_;
+    const RenderGoal& goal_;
+    const std::function<bool(const Progress&)>& report_;
+    Schedule schedule_;
+    Trend trend_;  ///< of every estimate; the schedule decides by those at the ends of rounds alone
+    const std::vector<std::uint32_t> pixels_;  ///< of each set
+    SetSamples have_;
+    const std::vector<SampleRange> ranges_before_;
+    const double samples_before_;
+    std::vector<float> own_set_errors_;
+    std::uint64_t total_ = 0;  ///< samples over all pixels
+    bool interrupted_ = false;
+    const RenderClock::time_point start_ = RenderClock::now();
+    double next_estimate_ = 0.25;
+    double relmse_ = -1;
+    std::uint64_t rays_ = 0;
+
+    double seconds() const { return seconds_since(start_); }
+    double samples() const { return double(total_) / double(s_.film.pixels()); }
+
+    /// The least that any pixel has.
+    std::uint32_t least() const {
+        std::uint32_t n = ~0u;
+        for (std::size_t i = 0; i < have_.size(); ++i)
+            if (pixels_[i] > 0) n = std::min(n, have_[i]);
+        return n;
+    }
+
+    /// What each set is to hold at the end of a round. The first samples are taken evenly: there is nothing
+    /// to decide by. Adaptive sampling gives both halves of every bin the same.
+    SetSamples wanted_at(double end) const {
+        if (!own_set_errors_.empty())
+            return distribute(s_.film, own_set_errors_, have_, end, unsigned(2 * s_.film.bins()));
+        return SetSamples(have_.size(), std::uint32_t(std::llround(end)));
+    }
+
+    /// Renders pass by pass until every set holds what is wanted, or it is time to stop.
+    void reach(const SetSamples& wanted) {
+        while (!interrupted_ && !schedule_.time_is_up(samples(), seconds())) {
+            std::uint64_t waiting = 0;
+            for (std::size_t i = 0; i < have_.size(); ++i) waiting += (wanted[i] > have_[i]) * pixels_[i];
+            if (waiting == 0) return;
+            const double fit = s_.items_per_second * launches_per_pass * launch_seconds / double(waiting);
+            if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
+            if (seconds() >= next_estimate_) estimate(false);
+            interrupted_ = !report_(progress());
+        }
+    }
+
+    /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
+    /// which leaves sets uneven: only where sampling is adaptive, and not before every pixel has a sample.
+    bool pass(const SetSamples& wanted, unsigned run) {
+        const bool may_be_cut = goal_.adaptive && least() > 0;
+        const double pace = total_ > 0 ? seconds() / double(total_) : 0;
+        if (!goal_.adaptive &&
+            pace > 0) {  // even passes end with whole samples, the last one at the time asked for
+            const double fit = schedule_.time_left(seconds()) / (pace * double(s_.film.pixels()));
+            run = unsigned(std::clamp(std::round(fit), 1.0, double(run)));
+        }
+        std::vector<dev::TileWork> work;
+        for (std::size_t t = 0; t < s_.tiles; ++t) {
+            dev::TileWork w{std::uint32_t(t), {have_[2 * t], have_[2 * t + 1]}, {}, {}};
+            for (std::size_t set = 0; set < 2; ++set)
+                w.sample_count[set] = std::min(wanted[2 * t + set] - have_[2 * t + set], run);
+            if (w.sample_count[0] + w.sample_count[1] > 0) work.push_back(w);
+        }
+        s_.device.write(s_.work, work.data(), work.size() * sizeof(dev::TileWork));
+        for (std::size_t first = 0; first < work.size();) {
+            if (may_be_cut && schedule_.time_is_up(samples(), seconds())) return false;
+            first += launch(work, first, may_be_cut);
+        }
+        return true;
+    }
+
+    /// Samples that a tile's work adds up to.
+    std::uint64_t samples_of(const dev::TileWork& w) const {
+        return std::uint64_t(w.sample_count[0]) * pixels_[2 * w.tile] +
+               std::uint64_t(w.sample_count[1]) * pixels_[2 * w.tile + 1];
+    }
+
+    /// As much of work[first, ...) as takes launch_seconds, or the time left. Returns how many tiles that
+    /// were.
+    std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, bool may_be_cut) {
+        const double time =
+            may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds())) : launch_seconds;
+        const double fit = s_.items_per_second * time;
+        const std::size_t most = s_.items_per_second > 0 ? largest_launch : 16;
+        std::size_t n = 0;
+        std::uint64_t samples = 0;
+        while (first + n < work.size() && n < most &&
+               (n == 0 || s_.items_per_second == 0 || double(samples) < fit))
+            samples += samples_of(work[first + n++]);
+        const auto start = RenderClock::now();
+        s_.launch(first, n, goal_.samples.begin);
+        s_.device.finish();
+        const double rate = double(samples) / std::max(seconds_since(start), 1e-6);
+        // Small launches are dominated by overhead and must not make the next ones smaller still.
+        s_.items_per_second = std::max(0.5 * (s_.items_per_second + rate), rate);
+        for (std::size_t i = first; i < first + n; ++i)
+            for (std::size_t set = 0; set < 2; ++set)
+                have_[2 * work[i].tile + set] += work[i].sample_count[set];
+        total_ += samples;
+        return n;
+    }
+
+    /// Estimates the error; at the end of a round also for the decisions.
+    void estimate(bool decides) {
+        const double began = seconds();
+        s_.film.ranges = ranges_before_;
+        s_.film.ranges.push_back({goal_.samples.begin, goal_.samples.begin + least()});
+        s_.load_film_arrays();
+        rays_ = s_.film.counters[COUNTER_RAYS];
+        relmse_ = estimated_relmse(s_.film);
+        if (relmse_ >= 0) {
+            trend_.add(samples_before_ + samples(), relmse_);
+            if (decides) schedule_.add_estimate(samples(), relmse_);
+        }
+        if (decides && goal_.adaptive) own_set_errors_ = error_map(s_.film, Neighbours::own_set);
+        s_.film.ranges = ranges_before_;
+        // Estimating reads the whole film: spend a small share of the time on it.
+        next_estimate_ = seconds() + std::max(1.0, 20 * (seconds() - began));
+    }
+
+    Progress progress() const {
+        Progress p;
+        p.samples = samples();
+        p.seconds = seconds();
+        p.seconds_left = schedule_.seconds_left(p.samples, p.seconds, trend_);
+        p.seconds_to_error = schedule_.seconds_to_error(p.samples, p.seconds, trend_);
+        p.done = p.seconds_left < 0 ? 0.0 : p.seconds / (p.seconds + p.seconds_left);
+        p.relmse = relmse_;
+        p.trend = trend_.slope();
+        p.rays = rays_;
+        return p;
+    }
+};
+
+RenderResult Renderer::render_until(const RenderGoal& goal,
+                                    const std::function<bool(const Progress&)>& report) {
+    return RenderLoop(*state_, goal, report).run();
+}
+
+SampleRange Renderer::render(SampleRange range, const std::function<bool(const Progress&)>& report) {
+    return render_until(RenderGoal{.samples = range}, report).range;
+}
+
+}  // namespace triad

@@ -1,0 +1,46 @@
+#pragma once
+/// The inside of Renderer, shared by the files that implement it.
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <vector>
+
+#include "kernels/types.h"
+#include "render/pack.h"
+#include "render/renderer.h"
+
+namespace triad {
+
+using RenderClock = std::chrono::steady_clock;
+inline double seconds_since(RenderClock::time_point start) {
+    return std::chrono::duration<double>(RenderClock::now() - start).count();
+}
+
+/// Tiles of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
+/// there is one program for everything, and compiling is over before rendering begins.
+constexpr std::size_t largest_launch = 65535 / FILM_TILE_PIXELS;
+
+struct Renderer::State {
+    Device& device;
+    RenderSettings settings;
+    PackedScene packed;  // arrays are cleared once they are on the device
+    dev::Frame frame{};
+    DeviceScene scene;
+    Features features;
+    Kernel trace_paths;
+    Buffer sums, half_sums, samples, counters;
+    Buffer work;            ///< of a pass: one dev::TileWork for every tile
+    std::size_t tiles = 0;  ///< of the crop
+    Film film;              ///< without the arrays
+    double build_seconds = 0, compile_seconds = 0;
+    double items_per_second = 0;  ///< samples, measured over the last launches
+
+    State(Device& d, const RenderSettings& s) : device(d), settings(s) {}
+
+    /// Renders work[first, first + count), whose samples are counted from first_sample.
+    void launch(std::size_t first, std::size_t count, std::uint64_t first_sample);
+    void clear_film();
+    void load_film_arrays();
+};
+
+}  // namespace triad

@@ -1,0 +1,109 @@
+#include "render/schedule.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace triad {
+namespace {
+
+/// A round at most doubles the samples: what is decided from few samples must not rule for long.
+constexpr double growth = 2.0;
+/// Beyond this factor a step towards the requested error goes three quarters of the way and looks again: the
+/// trend is known to some percent only.
+constexpr double sure_step = 1.3;
+/// An estimate this close above the requested error has reached it; its own scatter is of that size.
+constexpr double reached = 1.02;
+
+}  // namespace
+
+std::string to_string(Stop stop) {
+    switch (stop) {
+        case Stop::samples:
+            return "samples";
+        case Stop::error:
+            return "error";
+        case Stop::time:
+            return "time";
+        case Stop::interrupt:
+            break;
+    }
+    return "interrupt";
+}
+
+void Trend::add(double samples, double relmse) {
+    if (!points_.empty() && points_.back().samples >= samples) points_.pop_back();
+    points_.push_back({samples, relmse});
+}
+
+std::optional<double> Trend::slope() const {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0, least = INFINITY, most = -INFINITY;
+    for (const Point& p : points_) {
+        if (p.samples < points_.back().samples / 16 || !(p.relmse > 0)) continue;
+        const double u = std::log2(p.samples), v = std::log2(p.relmse);
+        n += 1, x += u, y += v, xx += u * u, xy += u * v;
+        least = std::min(least, u), most = std::max(most, u);
+    }
+    if (!(most - least >= 0.5)) return std::nullopt;
+    return (n * xy - x * y) / (n * xx - x * x);
+}
+
+double Trend::samples_for(double relmse) const {
+    const double steepness = std::clamp(-slope().value_or(-1.0), 0.5, 2.0);
+    return samples() * std::pow(this->relmse() / relmse, 1 / steepness);
+}
+
+Schedule::Schedule(const RenderGoal& goal, unsigned bins)
+    : goal_(goal), limit_(double(goal.samples.end - goal.samples.begin)), step_(2.0 * bins) {}
+
+std::optional<double> Schedule::next_round(double samples, double seconds) {
+    const auto stop = [&](Stop why) {
+        stop_ = why;
+        return std::nullopt;
+    };
+    if (samples > limit_ - 0.25)
+        return stop(Stop::samples);  // adaptive rounds end near their mark, not on it
+    double end = limit_;
+    if (goal_.adaptive || goal_.error > 0)
+        end = std::min(end, samples > 0 ? growth * samples : std::max(4.0, step_));
+    if (goal_.error > 0 && !trend_.empty()) {
+        if (trend_.relmse() <= goal_.error * reached) return stop(Stop::error);
+        const double there = std::max(trend_.samples_for(goal_.error), 1.01 * samples);
+        end = std::min(end, there > sure_step * samples ? samples + 0.75 * (there - samples) : there);
+    }
+    if (goal_.seconds > 0 && samples > 0) {
+        if (time_is_up(samples, seconds)) return stop(Stop::time);
+        end = std::min(end, samples + time_left(seconds) / pace(samples, seconds));
+    }
+    round_began_samples_ = samples, round_began_seconds_ = seconds;
+    return goal_.adaptive ? end : std::min(limit_, std::max(std::round(end), samples + 1.0));
+}
+
+double Schedule::time_left(double seconds) const {
+    return goal_.seconds > 0 ? std::max(0.0, goal_.seconds - seconds) : INFINITY;
+}
+
+double Schedule::pace(double samples, double seconds) const {
+    const double done = samples - round_began_samples_;
+    return done > 0 ? (seconds - round_began_seconds_) / done : seconds / samples;
+}
+
+bool Schedule::time_is_up(double samples, double seconds) const {
+    if (goal_.seconds <= 0 || !(samples > 0)) return false;
+    const double close = goal_.adaptive ? 0.005 * goal_.seconds : 0.5 * pace(samples, seconds);
+    return time_left(seconds) <= close;
+}
+
+double Schedule::seconds_to_error(double samples, double seconds, const Trend& trend) const {
+    if (goal_.error <= 0 || trend.empty() || !(samples > 0)) return -1.0;
+    return std::max(0.0, trend.samples_for(goal_.error) - samples) * seconds / samples;
+}
+
+double Schedule::seconds_left(double samples, double seconds, const Trend& trend) const {
+    if (!(samples > 0)) return -1.0;
+    double left = std::max(0.0, limit_ - samples) * seconds / samples;
+    const double to_error = seconds_to_error(samples, seconds, trend);
+    if (to_error >= 0) left = std::min(left, to_error);
+    return std::min(left, time_left(seconds));
+}
+
+}  // namespace triad

@@ -1,0 +1,83 @@
+#pragma once
+/// How many samples to take next, and when to stop: decisions only, without a clock, a film or a device.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/film.h"
+
+namespace triad {
+
+/// What a render is to reach. Whichever comes first ends it.
+struct RenderGoal {
+    SampleRange samples;    ///< at most these; adaptive: as many per pixel on average
+    double error = 0;       ///< estimated relMSE of the picture; 0: not asked for
+    double seconds = 0;     ///< of rendering; 0: not asked for
+    bool adaptive = false;  ///< samples go where they lower the error most (render/adaptive.h)
+};
+
+enum class Stop { samples, error, time, interrupt };
+std::string to_string(Stop stop);
+
+/// The error's course: relMSE = a n^slope, fitted to the latest four octaves of samples by least squares on
+/// logarithms.
+class Trend {
+  public:
+    void add(double samples, double relmse);
+    bool empty() const { return points_.empty(); }
+    double samples() const { return points_.back().samples; }  ///< of the latest estimate
+    double relmse() const { return points_.back().relmse; }
+    /// None while it cannot be told from less than half an octave.
+    std::optional<double> slope() const;
+    /// Samples per pixel at which the error will be `relmse`; the slope is taken as -1 (independent samples)
+    /// while it is not known, and kept to what renders do.
+    double samples_for(double relmse) const;
+
+  private:
+    struct Point {
+        double samples, relmse;
+    };
+    std::vector<Point> points_;
+};
+
+/// Cuts a render into rounds. A goal of error is decided by estimates at the ends of rounds alone, and these
+/// depend on samples and estimates alone: the same picture stops at the same samples on every machine. A goal
+/// of time cannot.
+class Schedule {
+  public:
+    Schedule(const RenderGoal& goal, unsigned bins);
+
+    /// Whether the error must be estimated before the next round().
+    bool needs_estimate() const { return goal_.error > 0; }
+    void add_estimate(double samples, double relmse) { trend_.add(samples, relmse); }
+
+    /// Mean samples per pixel at which the round that begins now is to end; none: stop, for stop_reason().
+    /// `samples` per pixel and `seconds` are those of the render so far.
+    std::optional<double> next_round(double samples, double seconds);
+    Stop stop_reason() const { return stop_; }
+
+    /// Until the time that was asked for is over; infinite when none was.
+    double time_left(double seconds) const;
+    /// Time to stop: adaptive renders end anywhere, even ones after whole samples, closest to the time asked
+    /// for.
+    bool time_is_up(double samples, double seconds) const;
+
+    /// Until the error asked for is reached, at the pace so far; negative: none was, or not known yet.
+    /// `trend`: the latest there is.
+    double seconds_to_error(double samples, double seconds, const Trend& trend) const;
+    /// Until the first goal is reached, at the pace so far; negative: not known yet. `trend`: the latest
+    /// there is.
+    double seconds_left(double samples, double seconds, const Trend& trend) const;
+
+  private:
+    RenderGoal goal_;
+    double limit_, step_;  ///< samples per pixel: at most; the least that gives every bin both halves
+    Trend trend_;
+    Stop stop_ = Stop::samples;
+    double round_began_samples_ = 0, round_began_seconds_ = 0;
+
+    /// Seconds for one more sample per pixel: the pace of this round, or else of all.
+    double pace(double samples, double seconds) const;
+};
+
+}  // namespace triad

@@ -1,0 +1,79 @@
+// Renders that end at an error or a time: their samples are those of every other render.
+#include <gtest/gtest.h>
+
+#include "analytic/analytic_scene.h"
+
+namespace triad {
+namespace {
+
+void expect_same_bytes(const Film& a, const Film& b, const std::string& what) {
+    EXPECT_EQ(a.sums, b.sums) << what;
+    EXPECT_EQ(a.half_sums, b.half_sums) << what;
+    EXPECT_EQ(a.samples, b.samples) << what;
+    EXPECT_EQ(a.ranges, b.ranges) << what;
+    EXPECT_EQ(a.counters, b.counters) << what;
+}
+
+Film render_to(Device& device, const RenderSettings& settings, const RenderGoal& goal) {
+    Scene scene = analytic::varied_scene();
+    validate(scene);
+    Renderer renderer(device, scene, settings);
+    renderer.render_until(goal, [](const Progress&) { return true; });
+    return renderer.film();
+}
+
+TEST(RenderGoal, an_error_is_reached_by_the_same_samples_on_every_work_group_size_and_thread) {
+    Device& device = test_device();
+    const std::size_t before = device.preferred_local();
+    const RenderGoal goal{.samples = {0, 10000}, .error = 0.1, .adaptive = true};
+    const Film whole = render_to(device, analytic::varied_settings(), goal);
+    EXPECT_FALSE(whole.is_even());
+    for (std::size_t local : {1, 8, 64}) {
+        device.set_preferred_local(local);
+        expect_same_bytes(whole, render_to(device, analytic::varied_settings(), goal),
+                          "local size " + std::to_string(local));
+    }
+    device.set_preferred_local(before);
+    if (device.info().type != "cpu") return;
+    const char* selector = std::getenv("TRIAD_TEST_DEVICE");
+    Device one = Device::open({.selector = selector ? selector : "", .threads = 1});
+    expect_same_bytes(whole, render_to(one, analytic::varied_settings(), goal), "one thread");
+}
+
+TEST(RenderGoal, a_pixel_with_n_samples_holds_the_first_n_however_it_came_to_them) {
+    for (const unsigned bins : {1u, 2u}) {
+        RenderSettings settings = analytic::varied_settings();
+        settings.bins_x = bins;
+        const Film film = render_to(test_device(), settings, {.samples = {0, 40}, .adaptive = true});
+        ASSERT_FALSE(film.is_even());
+        EXPECT_NEAR(film.sample_numbers().mean, 40, 1);
+        const std::vector<std::uint32_t> counts{film.sample_numbers().least, film.sample_numbers().most};
+        for (const std::uint32_t n : counts) {
+            const Film even = render_to(test_device(), settings, {.samples = {0, n}});
+            for (std::size_t p = 0; p < film.pixels(); ++p) {
+                if (film.samples[p] != n) continue;
+                for (std::size_t i = 0; i < 4 * bins; ++i)
+                    ASSERT_EQ(film.sums[p * 4 * bins + i], even.sums[p * 4 * bins + i]) << p;
+                for (std::size_t c = 0; c < 3; ++c)
+                    ASSERT_EQ(film.half_sums[p * 3 + c], even.half_sums[p * 3 + c]) << p;
+            }
+        }
+    }
+}
+
+TEST(RenderGoal, a_time_that_ends_within_a_pass_leaves_a_film_that_counts_right) {
+    const RenderSettings settings = analytic::varied_settings();
+    Scene scene = analytic::varied_scene();
+    validate(scene);
+    Renderer renderer(test_device(), scene, settings);
+    const RenderResult result = renderer.render_until(
+        {.samples = {0, 1u << 20}, .seconds = 0.5, .adaptive = true}, [](const Progress&) { return true; });
+    const Film film = renderer.film();
+    EXPECT_EQ(result.stop, Stop::time);
+    ASSERT_EQ(film.ranges.size(), 1u);
+    EXPECT_EQ(film.ranges[0].end, film.sample_numbers().least);
+    EXPECT_EQ(film.ranges[0], result.range);
+}
+
+}  // namespace
+}  // namespace triad
