@@ -7,6 +7,7 @@
 #include "app/command_line.h"
 #include "app/interrupt.h"
 #include "app/metadata.h"
+#include "app/pixel.h"
 #include "app/render_options.h"
 #include "app/report.h"
 #include "base/log.h"
@@ -57,6 +58,12 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
     RenderSettings settings;
     settings.width = size.x, settings.height = size.y;
     if (o.crop) settings.crop = *o.crop;
+    if (o.pixel) {
+        if ((*o.pixel)[0] >= size.x || (*o.pixel)[1] >= size.y)
+            throw Error(Exit::usage, format("--pixel %u,%u is not in the picture of %u x %u pixels.",
+                                            (*o.pixel)[0], (*o.pixel)[1], size.x, size.y));
+        settings.crop = {(*o.pixel)[0], (*o.pixel)[1], 1, 1};
+    }
     settings.bins_x = o.bins_x, settings.bins_y = o.bins_y;
     settings.seed = o.seed;
     settings.max_depth = o.max_depth;
@@ -112,6 +119,18 @@ std::vector<Channel> layers_of(const RenderOptions& o, Renderer& renderer, const
     return layers;
 }
 
+/// --pixel: the table on standard output, or where --json says.
+void tell_pixel(const RenderOptions& o, const Scene& scene, Renderer& renderer, const DeviceInfo& device) {
+    constexpr std::size_t largest = 5;
+    const auto [x, y] = *o.pixel;
+    const PixelReport report = report_pixel(renderer, 0, 0, o.goal().samples, largest);
+    if (o.json_path != "-")
+        std::fputs(table_text(report, scene, renderer.light_sources(), x, y).c_str(), stdout);
+    if (!o.json_path.empty())
+        write_report(o.json_path, "render", &device,
+                     Json::array({to_json(report, scene, renderer.light_sources(), x, y)}));
+}
+
 /// What went wrong with samples is said, not hidden.
 void report_counters(const Film& film, unsigned max_depth) {
     const auto& n = film.counters;
@@ -151,6 +170,10 @@ Exit run(RenderOptions o) {
                   bytes_text(renderer.device_bytes()).c_str()));
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 
+    if (o.pixel) {
+        tell_pixel(o, scene, renderer, device.info());
+        return Exit::done;
+    }
     const InterruptGuard guard;
     const RenderGoal goal = o.goal();
     const auto render_start = Clock::now();

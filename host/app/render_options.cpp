@@ -66,6 +66,17 @@ void declare(CLI::App& command, RenderOptions& o) {
                    o.crop = {unsigned(n[0]), unsigned(n[1]), unsigned(n[2]), unsigned(n[3])};
                })
         ->group(view_group);
+    add_parsed(
+        command, "--pixel", "X,Y",
+        "Print everything about one pixel instead of making a picture: its samples, paths, lights, errors",
+        [&o](const std::string& v) {
+            const auto n = parse_numbers("--pixel", v, 2);
+            for (double x : n)
+                if (x < 0 || x > 1e9 || x != std::floor(x))
+                    throw Error(Exit::usage, "--pixel " + v + ": expected two whole numbers.");
+            o.pixel = {unsigned(n[0]), unsigned(n[1])};
+        })
+        ->group(view_group);
     command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N")
@@ -177,8 +188,13 @@ RenderGoal RenderOptions::goal() const {
 }
 
 void complete(RenderOptions& o) {
+    if (o.pixel && (!o.outputs.empty() || !o.film_path.empty() || o.crop || o.error || o.time || o.adaptive))
+        throw Error(
+            Exit::usage,
+            "--pixel makes no picture: it cannot be combined with -o, --film, --crop, --error, --time or "
+            "--adaptive.");
     // A film alone is a complete result: a part of a larger render.
-    if (o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
+    if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);
     if (std::count(o.outputs.begin(), o.outputs.end(), "-") + (o.json_path == "-") > 1)
         throw Error(Exit::usage, "Only one of the outputs can go to standard output.");

@@ -18,6 +18,8 @@ struct RenderOptions {
     bool force = false;  ///< render on a device that computes wrong answers
     std::optional<uvec2> size;
     std::optional<std::array<unsigned, 4>> crop;
+    std::optional<std::array<unsigned, 2>>
+        pixel;                         ///< tell everything about this one instead of making a picture
     std::optional<std::uint64_t> spp;  ///< 64 where nothing else ends the render
     std::optional<double> error, time;
     std::optional<bool> adaptive;

@@ -65,6 +65,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.build_seconds = seconds_since(build_start);
     s.features = features ? *features : features_of(scene, settings, s.packed.instances);
     s.scene = upload(device, s.packed, settings);
+    s.name_sources(scene);
 
     Film& f = s.film;
     f.full_width = settings.width, f.full_height = settings.height;

@@ -6,6 +6,7 @@
 
 #include "device/device.h"
 #include "render/features.h"
+#include "render/record.h"
 #include "render/schedule.h"
 #include "render/settings.h"
 #include "scene/film.h"
@@ -58,6 +59,14 @@ class Renderer {
         std::vector<float> albedo, normal, position, depth;
     };
     FeaturePlanes feature_planes(unsigned samples);
+
+    /// Receives the paths of samples [range) of one pixel of the crop, vertex by vertex. The bits are those
+    /// that render() adds to the film.
+    void record_pixel(unsigned x, unsigned y, SampleRange range,
+                      const std::function<void(const RecordedPath&)>& receive);
+    /// What light can come from, for RecordedVertex: every material, then every punctual light, then the
+    /// environment.
+    const std::vector<std::string>& light_sources() const;
 
     const Features& features() const;
     double build_seconds() const;    ///< trees and packing

@@ -29,9 +29,11 @@ struct Renderer::State {
     Features features;
     Kernel trace_paths;
     Buffer sums, half_sums, samples, counters;
-    Buffer work;            ///< of a pass: one dev::TileWork for every tile
-    std::size_t tiles = 0;  ///< of the crop
-    Film film;              ///< without the arrays
+    Buffer work;                              ///< of a pass: one dev::TileWork for every tile
+    std::size_t tiles = 0;                    ///< of the crop
+    Film film;                                ///< without the arrays
+    std::vector<std::string> source_names;    ///< see Renderer::light_sources()
+    std::vector<std::uint32_t> light_source;  ///< of each dev::Light
     double build_seconds = 0, compile_seconds = 0;
     double items_per_second = 0;  ///< samples, measured over the last launches
 
@@ -40,6 +42,8 @@ struct Renderer::State {
     /// Renders work[first, first + count), whose samples are counted from first_sample.
     void launch(std::size_t first, std::size_t count, std::uint64_t first_sample);
     void clear_film();
+    /// Fills source_names and light_source; before the packed arrays go.
+    void name_sources(const Scene& from);
     void load_film_arrays();
 };
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "io/io.h"
@@ -139,9 +140,9 @@ TEST(RenderCommand, every_layer_is_there_and_means_what_it_says) {
     const fs::path path = folder / "a.exr";
     expect_done("render --size 32x18 --spp 6 --seed 7 --aov all -o " + path.string());
     const Picture picture = read_picture(path);
-    for (const char* name :
-         {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y", "normal.Z", "position.X",
-          "position.Y", "position.Z", "depth.Z", "samplecount.Y", "variance.R", "variance.G", "variance.B"})
+    for (const char* name : {"R", "G", "B", "albedo.R", "albedo.G", "albedo.B", "normal.X", "normal.Y",
+                             "normal.Z", "position.X", "position.Y", "position.Z", "depth.Z", "samplecount.Y",
+                             "variance.R", "variance.G", "variance.B", "error.Y"})
         ASSERT_NE(picture.find(name), nullptr) << name;
     for (const char* name :
          {"version", "spp", "relmse", "scene", "settings", "seed", "seconds", "device", "driver"})
@@ -162,6 +163,59 @@ TEST(RenderCommand, every_layer_is_there_and_means_what_it_says) {
             covered += value(picture, "depth.Z", x, y) > 0;
         }
     EXPECT_GT(covered, picture.width * picture.height / 2) << "the built-in scene has a floor";
+}
+
+TEST(RenderCommand, a_pixel_is_that_of_the_picture) {
+    const TemporaryFolder folder;
+    const std::string size = "render --size 32x18 --spp 40 --seed 3 ";
+    expect_done(size + "--aov variance -o " + (folder / "a.exr").string());
+    const Outcome told = run_triad(size + "--pixel 13,11 --json " + (folder / "p.json").string());
+    ASSERT_EQ(told.exit, 0) << told.output;
+    for (const char* part :
+         {"pixel 13, 11: 40 samples", "variance of the mean", "edges", "environment", "largest samples"})
+        EXPECT_NE(told.output.find(part), std::string::npos) << part << "\n" << told.output;
+    const Picture picture = read_picture(folder / "a.exr");
+    const auto row = nlohmann::json::parse(bytes_of(folder / "p.json")).at("rows").at(0);
+    const char* const channels[] = {"R", "G", "B"};
+    for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_NEAR(row.at("mean").at(c).get<float>(), value(picture, channels[c], 13, 11), 1e-5);
+        const float variance = value(picture, std::string("variance.") + channels[c], 13, 11);
+        EXPECT_NEAR(row.at("mean_variance").at(c).get<float>(), variance, 1e-4 * variance + 1e-9);
+    }
+    EXPECT_FALSE(fs::exists("triad.png"));
+    EXPECT_EQ(run_triad(size + "--pixel 32,0").exit, 1);
+}
+
+TEST(RenderCommand, an_error_or_a_time_ends_it_and_the_metadata_say_how) {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& goal) {
+        expect_done("render --size 64x36 --aov samples,error " + goal + " -o " + (folder / "a.exr").string() +
+                    " --json " + (folder / "a.json").string());
+        return std::pair{read_picture(folder / "a.exr"),
+                         nlohmann::json::parse(bytes_of(folder / "a.json")).at("rows").at(0)};
+    };
+    const auto [picture, row] = render("--error 0.05");
+    EXPECT_EQ(row.at("stopped_by"), "error");
+    EXPECT_LE(row.at("relmse").get<double>(), 1.02 * 0.05);
+    EXPECT_EQ(picture.metadata.at("triad:stopped_by"), "error");
+    double samples = 0, error = 0, least = 1e9, most = 0;
+    for (unsigned y = 0; y < picture.height; ++y)
+        for (unsigned x = 0; x < picture.width; ++x) {
+            const double n = value(picture, "samplecount.Y", x, y);
+            samples += n, error += value(picture, "error.Y", x, y);
+            least = std::min(least, n), most = std::max(most, n);
+        }
+    EXPECT_LT(least, most);
+    EXPECT_EQ(std::stod(picture.metadata.at("triad:samples")), samples);
+    EXPECT_NEAR(std::stod(picture.metadata.at("triad:spp")), samples / (64 * 36), 1e-6);
+    EXPECT_EQ(std::stod(picture.metadata.at("triad:spp_min")), least);
+    EXPECT_EQ(std::stod(picture.metadata.at("triad:spp_max")), most);
+    EXPECT_NEAR(std::stod(picture.metadata.at("triad:relmse")), error / (64 * 36), 1e-6);
+    const auto even = render("--error 0.05 --adaptive off").second;
+    EXPECT_EQ(even.at("spp_min"), even.at("spp_max"));
+    EXPECT_TRUE(even.at("spp").is_number_integer());
+    EXPECT_EQ(render("--error 0.000001 --spp 6").second.at("stopped_by"), "samples");
+    EXPECT_EQ(render("--error 0.000001 --time 0.5").second.at("stopped_by"), "time");
 }
 
 TEST(RenderCommand, a_crop_is_a_part_of_the_picture) {

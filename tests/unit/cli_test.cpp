@@ -43,6 +43,14 @@ TEST(CommandLine, bad_values_are_named) {
     expect("render --tonemap filmic", 1, "filmic");
     expect("render --spp none", 1, "none");
     expect("render --crop 0,0,0,5", 1, "--crop");
+    expect("render --error 0", 1, "--error");
+    expect("render --time -1", 1, "--time");
+    expect("render --adaptive maybe", 1, "--adaptive maybe");
+    expect("render --samples 0:8 --error 0.1", 1, "--samples");
+    expect("render --samples 0:8 --adaptive on", 1, "--samples");
+    expect("render --pixel 3", 1, "--pixel 3");
+    expect("render --pixel 3,4 --error 0.1", 1, "--pixel makes no picture");
+    expect("render --pixel 3,4 -o x.png", 1, "--pixel makes no picture");
     expect("render -o picture.bmp", 1, "picture.bmp");
     expect("render --aov normal -o x.png", 1, "--aov");
     expect("render --camera no-such-camera", 1, "no-such-camera");
