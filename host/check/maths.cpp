@@ -166,6 +166,8 @@ void not_finite_is_seen(Check& check) {
     const auto result = evaluate(check, "convert_float(math_is_finite(a[i]))",
                                  {0, 1, -3e38f, 1e-40f, INFINITY, -INFINITY, NAN, -NAN});
     check.equal(result, (std::vector<float>{1, 1, 1, 1, 0, 0, 0, 0}), "finiteness");
+    for (const char* drops : {"math_min(a[i], 1.0f)", "math_max(a[i], 1.0f)"})
+        check.equal(evaluate(check, drops, {NAN, -NAN}), std::vector<float>{1, 1}, drops, " of NaN");
 }
 
 void differences_of_products(Check& check) {
@@ -203,7 +205,8 @@ void add_maths(std::vector<CheckCase>& cases) {
                                   {"M5", "pow, in ulp", standard, powers},
                                   {"M6", "atan2 and acos, in ulp", quick, angles},
                                   {"M7", "floor is exact", standard, floor_is_exact},
-                                  {"M8", "infinities and NaN are seen by bits", quick, not_finite_is_seen},
+                                  {"M8", "infinities and NaN are seen, and dropped by min and max", quick,
+                                   not_finite_is_seen},
                                   {"M9", "differences of products, in ulp", quick, differences_of_products},
                                   {"M10", "products and sums are not fused", quick, no_contraction},
                               });

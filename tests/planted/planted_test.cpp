@@ -1,0 +1,140 @@
+// The test of the tests: each of these faults, planted into a copy of the kernels, is caught by a named case
+// of triad check, and that case passes without the fault.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "check/check.h"
+#include "device/device_fixture.h"
+
+namespace fs = std::filesystem;
+
+namespace triad {
+namespace {
+
+struct Fault {
+    const char* name;
+    const char* file;   ///< of kernels/
+    const char* right;  ///< text that must be there exactly once
+    const char* wrong;
+    const char* caught_by;  ///< id of a case
+};
+
+const Fault faults[] = {
+    {"epsilon_instead_of_id_skip", "traversal/triangle.h", "(vload4(0, block->primitive) != skip)",
+     "(t > 1e-4f)", "C3"},
+    {"contraction_on", "common/language.h", "FP_CONTRACT OFF", "FP_CONTRACT ON", "M10"},
+    {"min_instead_of_fmin", "common/math.h", "{ return a < b ? a : b; }", "{ return b < a ? b : a; }", "M8"},
+    {"pdf_in_the_wrong_measure", "shading/light.h", "area_per_pick * cosine * inverse_distance2",
+     "area_per_pick", "D2"},
+    {"missing_jacobian", "shading/bsdf.h", "eta * eta * -wi_h / l2", "1.0f", "C11c"},
+    {"off_by_one_in_the_cdf", "shading/environment.h", ">> 3) - 1u;",
+     ">> 3) - (level + 1u == levels ? 0u : 1u);", "S6"},
+    {"unshuffled_sobol", "common/random.h", "random_owen_reversed((uint4)(s->index_reversed), hash)",
+     "(uint4)(s->index_reversed)", "C18d"},
+    {"clamped_roulette", "shading/path.cl", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
+    {"swapped_tangent", "common/frame.h", "(v.x), f->x, fma((float3)(v.y), f->y",
+     "(v.x), f->y, fma((float3)(v.y), f->x", "C22"},
+    {"wrong_eta_side", "shading/bsdf.h", "in->inside ? 1.0f / in->ior : in->ior",
+     "in->inside ? in->ior : 1.0f / in->ior", "B2"},
+    {"floats_that_reach_1", "common/random.h", "convert_float(bits >> 8) * 5.9604644775390625e-8f",
+     "convert_float(bits) * 2.3283064365386963e-10f", "C19"},
+    {"infinity_taken_for_a_number", "common/math.h", "(as_uint(x) & 0x7f800000u) != 0x7f800000u", "x == x",
+     "M8"},
+    {"differences_without_compensation", "common/math.h", "fma(a, b, -cd) + fma(-c, d, cd)", "a * b - cd",
+     "M9"},
+    {"cones_by_a_difference_of_cosines", "common/sampling.h", "sin2 / (1.0f + math_sqrt(1.0f - sin2))",
+     "1.0f - math_sqrt(1.0f - sin2)", "C13"},
+    {"film_through_32_bits", "subpixel/film.h", "convert_long_rte(q)", "convert_int_sat_rte(q)", "C17b"},
+};
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+/// A copy of the kernels with one text replaced.
+class FaultyKernels {
+  public:
+    FaultyKernels(const std::string& file, const std::string& right, const std::string& wrong) {
+        fs::remove_all(folder);
+        fs::copy(fs::path(TRIAD_SOURCE_DIR) / "kernels", folder, fs::copy_options::recursive);
+        std::string text = text_of(folder / file);
+        const auto at = text.find(right);
+        found_once = at != std::string::npos && text.find(right, at + 1) == std::string::npos;
+        if (found_once)
+            std::ofstream(folder / file, std::ios::binary) << text.replace(at, right.size(), wrong);
+    }
+    ~FaultyKernels() {
+        kernel_source::set_folder({});
+        fs::remove_all(folder);
+    }
+
+    const fs::path folder = fs::temp_directory_path() / ("triad-planted-" + std::to_string(::getpid()));
+    bool found_once = false;
+};
+
+class Planted : public testing::TestWithParam<Fault> {};
+
+TEST_P(Planted, is_caught_and_only_then) {
+    const Fault& fault = GetParam();
+    const CheckCase by = cases_of(CheckLevel::quick, {fault.caught_by}).front();
+    const CheckResult right = run_case(test_device(), by, CheckLevel::quick);
+    EXPECT_TRUE(right.ok.value_or(false))
+        << by.name() << ": " << right.value << " is more than " << right.bound;
+
+    const FaultyKernels kernels(fault.file, fault.right, fault.wrong);
+    ASSERT_TRUE(kernels.found_once) << "\"" << fault.right << "\" is not, or not once, in kernels/"
+                                    << fault.file;
+    kernel_source::set_folder(kernels.folder);
+    const CheckResult wrong = run_case(test_device(), by, CheckLevel::quick);
+    EXPECT_FALSE(wrong.ok.value_or(true))
+        << by.name() << " does not see it: " << wrong.value << ", bound " << wrong.bound;
+    for (const std::string& failure : wrong.failures)
+        EXPECT_EQ(failure.find("clBuildProgram"), std::string::npos) << failure;
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, Planted, testing::ValuesIn(faults),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+/// What the simulator says about a case; empty: nothing.
+std::string oclgrind(const std::string& options, const fs::path& kernels, const std::string& id) {
+    const fs::path log = fs::temp_directory_path() / ("triad-oclgrind-" + std::to_string(::getpid()));
+    // A cache of its own: what it compiled otherwise would lack these build options.
+    const fs::path cache = fs::temp_directory_path() / ("triad-oclgrind-cache-" + std::to_string(::getpid()));
+    const std::string command =
+        "XDG_CACHE_HOME=" + cache.string() + " oclgrind --build-options -cl-opt-disable " + options +
+        " --log " + log.string() + " " + TRIAD_PROGRAM + " check --tiny --device oclgrind --case " + id +
+        " --kernels " + kernels.string() + " > /dev/null 2>&1";
+    [[maybe_unused]] const int status = std::system(command.c_str());
+    const std::string text = text_of(log);
+    fs::remove(log);
+    fs::remove_all(cache);
+    return text;
+}
+
+TEST(Simulator, sees_a_read_out_of_bounds_that_changes_no_value) {
+    if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
+    EXPECT_EQ(oclgrind("", fs::path(TRIAD_SOURCE_DIR) / "kernels", "C16e"), "");
+    const FaultyKernels kernels("shading/environment.h", "clamp((int)fy + 1, 0, h - 1)", "(int)fy + 1");
+    ASSERT_TRUE(kernels.found_once);
+    EXPECT_NE(oclgrind("", kernels.folder, "C16e").find("Invalid read"), std::string::npos);
+}
+
+TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {
+    if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
+    EXPECT_EQ(oclgrind("--data-races", fs::path(TRIAD_SOURCE_DIR) / "kernels", "R1"), "");
+    const FaultyKernels kernels("subpixel/film.h", "atomic_add(counters + 2u * which, amount)",
+                                "(counters[2u * which] += amount) - amount");
+    ASSERT_TRUE(kernels.found_once);
+    EXPECT_NE(oclgrind("--data-races", kernels.folder, "R1").find("data race"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace triad
