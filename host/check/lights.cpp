@@ -67,7 +67,7 @@ void environment_samples(Check& check) {
         check.also_at_most(std::abs(glm::length(d) - 1), 2e-6, "length of a direction");
         const double u = 0.5 + std::atan2(d.z, d.x) / (2 * pi),
                      v = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi;
-        check.holds(v * h < 4.99 || v * h > 7.01, "a direction to a black row");
+        check.holds(v * h < 5.01 || v * h > 6.99, "a direction to a black row");
         check.holds(std::isfinite(s[1]) && s[1] >= 0, "weight of a sample");
         // Beside the border of a texel either density is right.
         const double x = u * w - std::floor(u * w), y = v * h - std::floor(v * h);
