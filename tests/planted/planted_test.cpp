@@ -49,7 +49,7 @@ const Fault faults[] = {
      "M9"},
     {"cones_by_a_difference_of_cosines", "common/sampling.h", "sin2 / (1.0f + math_sqrt(1.0f - sin2))",
      "1.0f - math_sqrt(1.0f - sin2)", "C13"},
-    {"film_through_32_bits", "subpixel/film.h", "convert_long_rte(q)", "convert_int_sat_rte(q)", "C17b"},
+    {"film_through_32_bits", "subpixel/film.h", "return (long)(", "return (int)(", "C17b"},
 };
 
 std::string text_of(const fs::path& path) {
