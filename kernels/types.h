@@ -281,7 +281,8 @@ typedef struct Frame {
     float quanta; /* fixed-point units per unit of radiance: a power of two */
     uint root;    /* node of the world's tree */
     CdfShape lights; /* the tree that lights are picked by */
-    uint unused[2];
+    float roulette;  /* 1 / throughput below which roulette kills, in proportion */
+    uint unused;
 } Frame;
 TRIAD_SIZE(Frame, 296);
 

@@ -67,6 +67,7 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
     settings.bins_x = o.bins_x, settings.bins_y = o.bins_y;
     settings.seed = o.seed;
     settings.max_depth = o.max_depth;
+    settings.roulette = o.roulette;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
     settings.environment_rotation = o.env_rotate * pi / 180;

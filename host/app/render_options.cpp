@@ -51,6 +51,13 @@ void declare(CLI::App& command, RenderOptions& o) {
         .add_option("--max-depth", o.max_depth,
                     "Longest path in edges: 1 emitters only, 2 direct light (default 0: no limit)")
         ->type_name("N");
+    command
+        .add_option(
+            "--roulette", o.roulette,
+            "Paths that carry less than this are ended in proportion (default 0.5: least error for its "
+            "time; 1: most samples)")
+        ->check(CLI::Range(0.01, 10.0))
+        ->type_name("T");
     add_parsed(command, "--samples", "A:B", "Only this half-open range of sample indices, for triad merge",
                [&o](const std::string& v) { o.samples = parse_range("--samples", v); });
 

@@ -26,6 +26,7 @@ struct RenderOptions {
     std::optional<SampleRange> samples;
     std::uint32_t seed = 0;
     unsigned max_depth = 0;
+    double roulette = 0.5;
     unsigned bins_x = 1, bins_y = 1;
     std::string device;
     unsigned threads = 0;

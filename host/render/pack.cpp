@@ -47,6 +47,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.bins[1] = settings.bins_y;
     frame.seed = settings.seed;
     frame.max_depth = settings.max_depth;
+    frame.roulette = static_cast<float>(1.0 / settings.roulette);
     frame.transparent = settings.transparent;
     frame.light_count = static_cast<std::uint32_t>(packed.lights.size());
     frame.quanta = std::ldexp(1.0f, packed.quanta_log2);

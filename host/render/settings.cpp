@@ -25,6 +25,7 @@ std::string text_of(const RenderSettings& s) {
     add("crop", {double(s.crop[0]), double(s.crop[1]), double(s.crop[2]), double(s.crop[3])});
     add("seed", {double(s.seed)});
     add("max_depth", {double(s.max_depth)});
+    add("roulette", {s.roulette});
     add("transparent", {double(s.transparent)});
     add("eye", {v.eye.x, v.eye.y, v.eye.z});
     add("right", {v.right.x, v.right.y, v.right.z});

@@ -13,10 +13,6 @@
 #include "subpixel/film.h"
 #include "traversal/traverse.h"
 
-/* Roulette spares what carries more than this throughput, and kills the rest in proportion: measured over
- * three scenes, 1.2 to 1.4 times as efficient (error times time) as killing by throughput from the third edge
- * on. */
-#define ROULETTE_BELOW 0.5f
 /* From here on roulette never lets a path survive for certain, so that none is endless (a ray caught in clear
  * glass). */
 #define ROULETTE_ALWAYS_FROM 64u
@@ -267,7 +263,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         specular = specular && (sample.event & BSDF_DELTA);
 
         const float most = edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
-        const float survive = math_min(math_max3(throughput) * (1.0f / ROULETTE_BELOW) / body_scale, most);
+        const float survive = math_min(math_max3(throughput) * frame->roulette / body_scale, most);
         RECORD(record_end(&tally->recorder, edge, PATH_ROULETTE);)
         if (!(random_float(u.y.s1) < survive)) break;
         throughput *= 1.0f / survive;

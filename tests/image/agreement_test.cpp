@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned size = 48, batches = 12, spp = 16;
 
 std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0,
-                          bool adaptive = false) {
+                          bool adaptive = false, double roulette = 0.5) {
     validate(scene);
     std::vector<Batch> result;
     for (unsigned k = 0; k < batches; ++k) {
@@ -21,6 +21,7 @@ std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins =
         settings.bins_x = settings.bins_y = bins;
         settings.seed = first_seed + k;
         settings.max_depth = max_depth;
+        settings.roulette = roulette;
         settings.view = room_view();
         Renderer renderer(test_device(), scene, settings);
         renderer.render_until({.samples = {0, spp}, .adaptive = adaptive},
@@ -59,6 +60,10 @@ TEST(Agreement, an_even_sky_shines_as_a_map_of_it_that_is_sampled) {
 }
 
 TEST(Agreement, bins_change_no_mean) { expect_agreement(render(lit_room(1, false), 500, 2)); }
+
+TEST(Agreement, roulette_changes_no_mean) {
+    expect_agreement(render(lit_room(1, false), 900, 1, 0, false, 2.0));
+}
 
 TEST(Agreement, adaptive_sampling_from_four_samples_on_changes_no_mean) {
     expect_agreement(render(lit_room(1, false), 800, 1, 0, true));
