@@ -1,6 +1,7 @@
 // The test of the tests: each of these faults, planted into a copy of the kernels, is caught by a named case
 // of triad check, and that case passes without the fault.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -134,6 +135,25 @@ TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {
                                 "(counters[2u * which] += amount) - amount");
     ASSERT_TRUE(kernels.found_once);
     EXPECT_NE(oclgrind("--data-races", kernels.folder, "R1").find("data race"), std::string::npos);
+}
+
+int exit_code(const std::string& command) {
+    const int status = std::system((command + " > /dev/null 2>&1").c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(FirstRender, refuses_kernels_that_compute_wrong_answers_unless_forced) {
+    const FaultyKernels kernels("shading/bsdf.h", "eta * eta * -wi_h / l2", "1.0f");
+    ASSERT_TRUE(kernels.found_once);
+    const fs::path cache = kernels.folder / "cache", picture = kernels.folder / "picture.png";
+    const std::string render = "XDG_CACHE_HOME=" + cache.string() + " " + TRIAD_PROGRAM +
+                               " render -q --spp 1 --size 8x8 -o " + picture.string() + " --kernels " +
+                               kernels.folder.string();
+    EXPECT_EQ(exit_code(render), 5);
+    EXPECT_FALSE(fs::exists(picture));
+    EXPECT_EQ(exit_code(render), 5) << "the kept verdict";
+    EXPECT_EQ(exit_code(render + " --force"), 0);
+    EXPECT_TRUE(fs::exists(picture));
 }
 
 }  // namespace
