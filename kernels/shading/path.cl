@@ -9,7 +9,7 @@
 #include "shading/light.h"
 #include "shading/record.h"
 #include "shading/sample.h"
-#include "shading/surface.h"
+#include "shading/vertex.h"
 #include "subpixel/film.h"
 #include "traversal/traverse.h"
 
@@ -31,64 +31,6 @@ TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
     t.instances = scene->instances;
     t.root = scene->frame->root;
     return t;
-}
-
-/* A ray that leaves a surface to the side of `normal`, and never hits the triangle that it leaves. */
-TRIAD_FUNCTION Ray path_spawn(const Surface* s, float3 normal, const Hit* hit, float3 direction) {
-    const float3 origin = s->position + normal * s->offset;
-    Ray ray;
-    ray.origin[0] = origin.x, ray.origin[1] = origin.y, ray.origin[2] = origin.z;
-    ray.direction[0] = direction.x, ray.direction[1] = direction.y, ray.direction[2] = direction.z;
-    ray.t_max = INFINITY;
-    ray.skip_instance = hit->instance;
-    ray.skip_primitive = hit->primitive;
-    return ray;
-}
-
-/* The same towards a point, short of it by a rounding error. */
-TRIAD_FUNCTION Ray path_spawn_to(const Surface* s, float3 normal, const Hit* hit, float3 target) {
-    const float3 origin = s->position + normal * s->offset;
-    Ray ray = path_spawn(s, normal, hit, target - origin);
-    ray.t_max = 1.0f - 0x1.0p-16f;
-    return ray;
-}
-
-#if TRIAD_TRANSMISSION
-/* What a body lets through over a distance (Beer-Lambert). */
-TRIAD_FUNCTION float3 path_transmittance(global const Material* body, float distance) {
-    return (float3)(math_exp(-body->absorption[0] * distance), math_exp(-body->absorption[1] * distance),
-                    math_exp(-body->absorption[2] * distance));
-}
-
-/* The body beyond a surface that the path passes. */
-TRIAD_FUNCTION uint path_body_beyond(uint flags, int back, uint material, uint body) {
-    if (!(flags & MATERIAL_SOLID)) return body;
-    return back ? TRIAD_NONE : material;
-}
-#endif
-
-/* The local frame's normal: the shading normal on the side of wo. `mirror` is the share of the material that
- * has microfacets alone (metal, glass): theirs is turned towards the geometric normal (on wo's side) just so
- * far that the mirror direction of wo leaves the surface, else they would be black where a normal map or
- * interpolation tilts it further. With N = (sqrt(1 - w), 0, sqrt(w)) and R.z = t, w is a root of 2 a w^2 - b
- * w + c / 2 = 0: Cycles' ensure_valid_specular_reflection. */
-TRIAD_FUNCTION float3 path_shading_normal(float3 ns, float3 ng, float3 wo, float mirror) {
-    const float facing = math_dot(ns, wo), least = 0.02f;
-    float3 n = ns;
-    if (facing < least) {
-        n = normalize_or(ns + wo * (least - facing), ng);
-        if (!(math_dot(n, wo) > 0.0f)) return ng;
-    }
-    const float cosine = math_dot(n, ng), z = math_dot(wo, ng);
-    const float t = math_min(0.9f * z, 0.01f); /* never asks for more than the geometric normal gives */
-    if (mirror == 0.0f || fma(2.0f * math_dot(n, wo), cosine, -z) >= t) return n;
-    const float3 axis = normalize_or(n - ng * cosine, (float3)(0.0f));
-    const float x = math_dot(wo, axis);
-    const float a = fma(x, x, z * z), b = 2.0f * fma(z, t, a), c = math_square(t + z);
-    const float root = math_sqrt(fma(b, b, -4.0f * a * c));
-    const float w = clamp(0.25f * (b + (x < 0.0f ? root : -root)) / a, 0.0f, 1.0f);
-    const float3 turned = axis * sqrt(1.0f - w) + ng * sqrt(w);
-    return normalize_or(n + (turned - n) * mirror, ng);
 }
 
 /* Radiance and alpha along one camera ray. */
@@ -151,7 +93,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         /* a body's inner side is proof of where the edge ran; else it ended on something inside the body */
         if (back && (flags & MATERIAL_SOLID)) body = s.material;
         if (body != TRIAD_NONE)
-            throughput *= path_transmittance(scene->materials + body, math_length(s.position - from));
+            throughput *= vertex_transmittance(scene->materials + body, math_length(s.position - from));
         from = s.position;
 #endif
 #if TRIAD_UNLIT
@@ -198,7 +140,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         input.solid = (flags & MATERIAL_SOLID) != 0u;
         input.inside = (uint)(back && (flags & MATERIAL_SOLID));
         const float mirror = fma(1.0f - s.metallic, s.transmission, s.metallic);
-        const float3 ns = path_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo, mirror);
+        const float3 ns = vertex_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo, mirror);
         const ShadingFrame around = frame_make(ns);
         const float3 wo_local = frame_to_local(&around, wo);
         const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
@@ -221,18 +163,18 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
                     float3 direct = throughput * bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
 #if TRIAD_TRANSMISSION
                     const uint around_light =
-                        side < 0.0f ? path_body_beyond(flags, back, s.material, body) : body;
+                        side < 0.0f ? vertex_body_beyond(flags, back, s.material, body) : body;
                     if (around_light != TRIAD_NONE && !light.distant)
-                        direct *= path_transmittance(scene->materials + around_light,
-                                                     math_length(light.target - s.position));
+                        direct *= vertex_transmittance(scene->materials + around_light,
+                                                       math_length(light.target - s.position));
 #endif
                     if (math_max3(direct * light.weight) > 0.0f) {
                         const float3 away = side > 0.0f ? ng : -ng;
 #if TRIAD_ALPHA_TEST
                         coverage.ray += 1u;
 #endif
-                        const Ray shadow = light.distant ? path_spawn(&s, away, &hit, light.direction)
-                                                         : path_spawn_to(&s, away, &hit, light.target);
+                        const Ray shadow = light.distant ? vertex_spawn(&s, away, &hit, light.direction)
+                                                         : vertex_spawn_to(&s, away, &hit, light.target);
                         ++tally->rays;
                         if (!traverse_occluded(&traversal, shadow) && light_complete(scene, &light)) {
                             direct *= light.weight * power_heuristic(bsdf_pdf * light.inverse_pdf);
@@ -255,7 +197,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
 #if BSDF_TRANSMISSION
         if (sample.event & BSDF_TRANSMIT) {
             body_scale *= bsdf.body_scale;
-            body = path_body_beyond(flags, back, s.material, body);
+            body = vertex_body_beyond(flags, back, s.material, body);
         }
 #endif
         pdf = (sample.event & BSDF_DELTA) ? 0.0f : sample.pdf;
@@ -269,7 +211,7 @@ TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray
         throughput *= 1.0f / survive;
         RECORD(record_end(&tally->recorder, edge, PATH_GOES_ON);)
         RECORD(record_event(&tally->recorder, edge, sample.event, throughput);)
-        ray = path_spawn(&s, side > 0.0f ? ng : -ng, &hit, direction);
+        ray = vertex_spawn(&s, side > 0.0f ? ng : -ng, &hit, direction);
     }
     return (float4)(radiance, alpha);
 }

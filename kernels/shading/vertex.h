@@ -1,0 +1,65 @@
+/* What a path does at a vertex: which normal it shades with, how rays leave, and which body they pass. */
+#ifndef TRIAD_SHADING_VERTEX_H
+#define TRIAD_SHADING_VERTEX_H
+
+#include "shading/surface.h"
+
+/* A ray that leaves a surface to the side of `normal`, and never hits the triangle that it leaves. */
+TRIAD_FUNCTION Ray vertex_spawn(const Surface* s, float3 normal, const Hit* hit, float3 direction) {
+    const float3 origin = s->position + normal * s->offset;
+    Ray ray;
+    ray.origin[0] = origin.x, ray.origin[1] = origin.y, ray.origin[2] = origin.z;
+    ray.direction[0] = direction.x, ray.direction[1] = direction.y, ray.direction[2] = direction.z;
+    ray.t_max = INFINITY;
+    ray.skip_instance = hit->instance;
+    ray.skip_primitive = hit->primitive;
+    return ray;
+}
+
+/* The same towards a point, short of it by a rounding error. */
+TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, float3 normal, const Hit* hit, float3 target) {
+    const float3 origin = s->position + normal * s->offset;
+    Ray ray = vertex_spawn(s, normal, hit, target - origin);
+    ray.t_max = 1.0f - 0x1.0p-16f;
+    return ray;
+}
+
+#if TRIAD_TRANSMISSION
+/* What a body lets through over a distance (Beer-Lambert). */
+TRIAD_FUNCTION float3 vertex_transmittance(global const Material* body, float distance) {
+    return (float3)(math_exp(-body->absorption[0] * distance), math_exp(-body->absorption[1] * distance),
+                    math_exp(-body->absorption[2] * distance));
+}
+
+/* The body beyond a surface that the path passes. */
+TRIAD_FUNCTION uint vertex_body_beyond(uint flags, int back, uint material, uint body) {
+    if (!(flags & MATERIAL_SOLID)) return body;
+    return back ? TRIAD_NONE : material;
+}
+#endif
+
+/* The local frame's normal: the shading normal on the side of wo. `mirror` is the share of the material that
+ * has microfacets alone (metal, glass): theirs is turned towards the geometric normal (on wo's side) just so
+ * far that the mirror direction of wo leaves the surface, else they would be black where a normal map or
+ * interpolation tilts it further. With N = (sqrt(1 - w), 0, sqrt(w)) and R.z = t, w is a root of 2 a w^2 - b
+ * w + c / 2 = 0: Cycles' ensure_valid_specular_reflection. */
+TRIAD_FUNCTION float3 vertex_shading_normal(float3 ns, float3 ng, float3 wo, float mirror) {
+    const float facing = math_dot(ns, wo), least = 0.02f;
+    float3 n = ns;
+    if (facing < least) {
+        n = normalize_or(ns + wo * (least - facing), ng);
+        if (!(math_dot(n, wo) > 0.0f)) return ng;
+    }
+    const float cosine = math_dot(n, ng), z = math_dot(wo, ng);
+    const float t = math_min(0.9f * z, 0.01f); /* never asks for more than the geometric normal gives */
+    if (mirror == 0.0f || fma(2.0f * math_dot(n, wo), cosine, -z) >= t) return n;
+    const float3 axis = normalize_or(n - ng * cosine, (float3)(0.0f));
+    const float x = math_dot(wo, axis);
+    const float a = fma(x, x, z * z), b = 2.0f * fma(z, t, a), c = math_square(t + z);
+    const float root = math_sqrt(fma(b, b, -4.0f * a * c));
+    const float w = clamp(0.25f * (b + (x < 0.0f ? root : -root)) / a, 0.0f, 1.0f);
+    const float3 turned = axis * sqrt(1.0f - w) + ng * sqrt(w);
+    return normalize_or(n + (turned - n) * mirror, ng);
+}
+
+#endif
