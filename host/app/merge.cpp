@@ -3,9 +3,11 @@
 #include <memory>
 
 #include "app/command_line.h"
+#include "app/metadata.h"
 #include "app/output.h"
 #include "app/report.h"
 #include "base/log.h"
+#include "base/progress.h"
 
 namespace triad {
 namespace {
@@ -31,7 +33,7 @@ Exit run(const MergeOptions& o) {
     save_film(o.output, whole);
     const std::uint64_t end = o.expected_spp ? o.expected_spp : whole.ranges.back().end;
     const std::vector<SampleRange> missing = holes(whole, end);
-    inform(o.output + ": " + std::to_string(whole.sample_count()) + " samples per pixel from " +
+    inform(o.output + ": " + spp_text(whole.sample_numbers().mean) + " samples per pixel from " +
            std::to_string(o.parts.size()) + " films");
     if (!o.json.empty()) {
         Json gaps = Json::array();
@@ -39,7 +41,7 @@ Exit run(const MergeOptions& o) {
         write_report(o.json, "merge", nullptr,
                      {{{"film", o.output},
                        {"parts", o.parts.size()},
-                       {"spp", whole.sample_count()},
+                       {"spp", spp_json(whole.sample_numbers())},
                        {"relmse", estimated_relmse(whole)},
                        {"holes", gaps}}});
     }

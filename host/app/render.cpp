@@ -177,7 +177,6 @@ Exit run(RenderOptions o) {
     }
     const InterruptGuard guard;
     const RenderGoal goal = o.goal();
-    const auto render_start = Clock::now();
     RenderResult result;
     Progress progress;
     {
@@ -195,7 +194,7 @@ Exit run(RenderOptions o) {
             return !guard.interrupted();
         });
     }
-    const double render_s = since(render_start);
+    const double render_s = result.seconds;
     const Film film = renderer.film();
     const SampleNumbers numbers = film.sample_numbers();
     const bool complete = result.stop != Stop::interrupt;

@@ -38,13 +38,15 @@ class RenderLoop {
         while (const auto end = schedule_.next_round(samples(), seconds())) {
             reach(wanted_at(*end));
             if (interrupted_) break;
+            if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
             if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
         }
+        const double rendered = seconds();
         if (!trend_.empty() || goal_.error > 0) estimate(false);
         const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
         s_.film.ranges = ranges_before_;
         if (range.end > range.begin) s_.film.ranges.push_back(range);
-        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), trend_.slope()};
+        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), rendered, trend_.slope()};
     }
 
   private:
@@ -100,12 +102,14 @@ class RenderLoop {
     /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
     /// which leaves sets uneven: only where sampling is adaptive, and not before every pixel has a sample.
     bool pass(const SetSamples& wanted, unsigned run) {
+        const auto bins = unsigned(s_.film.bins());  // each gets as many samples, wherever a render is cut
+        run = std::max(run / bins, 1u) * bins;
         const bool may_be_cut = goal_.adaptive && least() > 0;
         const double pace = total_ > 0 ? seconds() / double(total_) : 0;
         if (!goal_.adaptive &&
             pace > 0) {  // even passes end with whole samples, the last one at the time asked for
             const double fit = schedule_.time_left(seconds()) / (pace * double(s_.film.pixels()));
-            run = unsigned(std::clamp(std::round(fit), 1.0, double(run)));
+            run = bins * unsigned(std::clamp(std::round(fit / bins), 1.0, double(run / bins)));
         }
         std::vector<dev::TileWork> work;
         for (std::size_t t = 0; t < s_.tiles; ++t) {

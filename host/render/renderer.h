@@ -30,6 +30,7 @@ struct Progress {
 struct RenderResult {
     SampleRange range;  ///< what every pixel was given; adaptive: Film::samples says what beyond that
     Stop stop = Stop::samples;
+    double seconds = 0;           ///< that rendering took
     std::optional<double> trend;  ///< as in Progress, of the whole render
 };
 

@@ -53,7 +53,7 @@ double Trend::samples_for(double relmse) const {
 }
 
 Schedule::Schedule(const RenderGoal& goal, unsigned bins)
-    : goal_(goal), limit_(double(goal.samples.end - goal.samples.begin)), step_(2.0 * bins) {}
+    : goal_(goal), limit_(double(goal.samples.end - goal.samples.begin)), bins_(bins) {}
 
 std::optional<double> Schedule::next_round(double samples, double seconds) {
     const auto stop = [&](Stop why) {
@@ -64,7 +64,7 @@ std::optional<double> Schedule::next_round(double samples, double seconds) {
         return stop(Stop::samples);  // adaptive rounds end near their mark, not on it
     double end = limit_;
     if (goal_.adaptive || goal_.error > 0)
-        end = std::min(end, samples > 0 ? growth * samples : std::max(4.0, step_));
+        end = std::min(end, samples > 0 ? growth * samples : std::max(4.0, 2 * bins_));
     if (goal_.error > 0 && !trend_.empty()) {
         if (trend_.relmse() <= goal_.error * reached) return stop(Stop::error);
         const double there = std::max(trend_.samples_for(goal_.error), 1.01 * samples);
@@ -75,7 +75,8 @@ std::optional<double> Schedule::next_round(double samples, double seconds) {
         end = std::min(end, samples + time_left(seconds) / pace(samples, seconds));
     }
     round_began_samples_ = samples, round_began_seconds_ = seconds;
-    return goal_.adaptive ? end : std::min(limit_, std::max(std::round(end), samples + 1.0));
+    if (goal_.adaptive || end >= limit_) return end;
+    return std::min(limit_, std::max(std::round(end / bins_) * bins_, samples + bins_));
 }
 
 double Schedule::time_left(double seconds) const {
@@ -89,7 +90,7 @@ double Schedule::pace(double samples, double seconds) const {
 
 bool Schedule::time_is_up(double samples, double seconds) const {
     if (goal_.seconds <= 0 || !(samples > 0)) return false;
-    const double close = goal_.adaptive ? 0.005 * goal_.seconds : 0.5 * pace(samples, seconds);
+    const double close = goal_.adaptive ? 0.005 * goal_.seconds : 0.5 * bins_ * pace(samples, seconds);
     return time_left(seconds) <= close;
 }
 

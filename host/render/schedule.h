@@ -71,7 +71,7 @@ class Schedule {
 
   private:
     RenderGoal goal_;
-    double limit_, step_;  ///< samples per pixel: at most; the least that gives every bin both halves
+    double limit_, bins_;  ///< samples per pixel at most; bins of a pixel: every one gets as many samples
     Trend trend_;
     Stop stop_ = Stop::samples;
     double round_began_samples_ = 0, round_began_seconds_ = 0;

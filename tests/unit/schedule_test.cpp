@@ -141,6 +141,19 @@ TEST(Schedule, the_first_look_comes_when_every_bin_has_both_halves) {
     EXPECT_EQ(schedule.next_round(0, 0), 18.0);
 }
 
+TEST(Schedule, even_renders_give_every_bin_as_many_samples) {
+    Schedule schedule({.samples = {0, no_limit}, .error = 0.01, .seconds = 100}, 9);
+    double samples = 0;
+    for (int round = 0; round < 5; ++round) {
+        const auto end = schedule.next_round(samples, samples);
+        ASSERT_TRUE(end);
+        EXPECT_EQ(std::fmod(*end, 9), 0) << *end;
+        samples = *end;
+        schedule.add_estimate(samples, 1 / samples);
+    }
+    EXPECT_EQ(Schedule({.samples = {0, 64}}, 9).next_round(0, 0), 64.0) << "what was asked for exactly";
+}
+
 TEST(Schedule, adaptive_rounds_never_more_than_double_the_samples) {
     Schedule schedule({.samples = {0, 1000}, .adaptive = true}, 1);
     double samples = 0;
