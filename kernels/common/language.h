@@ -11,6 +11,8 @@
 
 /* Device functions. `static` keeps OpenCL C 1.2 and 3.0 from asking for an external definition of an inline function. */
 #define TRIAD_FUNCTION static inline
+/* A function whose callers pass constants that decide its shape: one copy each, however large. */
+#define TRIAD_FUNCTION_PER_CALL static inline __attribute__((always_inline))
 
 /* Asks for the cache line of a global address that is read some hundred cycles later. Only where it is one instruction and
  * the language's prefetch() does nothing (PoCL 3.1 on x86). */

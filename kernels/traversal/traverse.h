@@ -162,7 +162,7 @@ TRIAD_FUNCTION ulong traversal_pack(uint child, float entry) { return (ulong)as_
 
 /* The walk. `any` is a constant of the call: 1 stops at the first hit and returns 1, 0 leaves the closest in
  * `best`. */
-TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* best, const int any) {
+TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ray, Hit* best, const int any) {
     ulong stack[BVH_STACK];
     uint size = 0u;
     uint child = scene->root;
@@ -200,11 +200,11 @@ TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* b
                 }
                 float entry[8];
                 vstore8(entries, 0, entry);
-                ulong nearest = traversal_pack(node->child[first], entry[first]);
+                ulong nearest = traversal_pack(node->child[first], any ? 0.0f : entry[first]);
                 const uint floor_of_node = size;
                 do { /* the nearest child is walked next, the others lie in order on the stack */
                     const uint next = slab_next(&mask);
-                    const ulong other = traversal_pack(node->child[next], entry[next]);
+                    const ulong other = traversal_pack(node->child[next], any ? 0.0f : entry[next]);
                     const ulong farther = any ? other : max(nearest, other);
                     nearest = any ? nearest : min(nearest, other);
                     uint place = size++;
@@ -230,7 +230,7 @@ TRIAD_FUNCTION int traversal_walk(const Traversal* scene, const Ray* ray, Hit* b
 #endif
             if (size == 0u) return 0;
             child = (uint)stack[--size];
-        } while (as_float((uint)(stack[size] >> 32)) > best->t);
+        } while (!any && as_float((uint)(stack[size] >> 32)) > best->t);
     }
 }
 
