@@ -62,12 +62,13 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
         const Buffer buffer = device.upload(values);
         scene.bytes += buffer.bytes();
         scene.arguments.add(buffer);
+        return buffer;
     };
     std::vector<float> srgb(256);
     for (int i = 0; i < 256; ++i)
         srgb[static_cast<std::size_t>(i)] = static_cast<float>(srgb_decode(i / 255.0));
     // The order of SCENE_PARAMETERS in kernels/shading/scene.h.
-    add(std::vector<dev::Frame>{frame_of(packed, settings)});
+    scene.frame = add(std::vector<dev::Frame>{frame_of(packed, settings)});
     add(packed.bvh.nodes);
     add(packed.bvh.blocks);
     add(packed.instance_table);

@@ -52,6 +52,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
 /// The packed arrays on a device, in the order of SCENE_PARAMETERS.
 struct DeviceScene {
     Arguments arguments;
+    Buffer frame;  ///< the first of them: one dev::Frame
     std::uint64_t bytes = 0;
 };
 DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings);
@@ -68,8 +69,9 @@ void write_cdf_tree(const dev::CdfShape& shape, std::span<const std::uint32_t> b
 /// The layout of the trees over the columns of a map; throws Error(scene) when it is wider than
 /// COLUMNS_FANOUT^COLUMNS_LEVELS.
 dev::ColumnsShape columns_shape(std::size_t width, std::size_t height);
-/// Bounds of the columns of a row in shares of 1 / 65536: one for each column, the others by weight (the share of the
-/// uniform part grows with the width: 1.6 % at 1024 columns, 12.5 % at 8192). Size + 1 values, first 0, last 65536.
+/// Bounds of the columns of a row in shares of 1 / 65536: one for each column, the others by weight (the
+/// share of the uniform part grows with the width: 1.6 % at 1024 columns, 12.5 % at 8192). Size + 1 values,
+/// first 0, last 65536.
 std::vector<std::uint32_t> column_shares(std::span<const double> weights);
 /// Writes the tree of a row; `out` is of shape.size, filled with 0xffff before the first.
 void write_columns(const dev::ColumnsShape& shape, std::size_t row, std::span<const std::uint32_t> bounds,

@@ -94,7 +94,7 @@ class RenderLoop {
             if (waiting == 0) return;
             const double fit = s_.items_per_second * launches_per_pass * launch_seconds / double(waiting);
             if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
-            if (seconds() >= next_estimate_) estimate(false);
+            if (goal_.follow && seconds() >= next_estimate_) estimate(false);
             interrupted_ = !report_(progress());
         }
     }

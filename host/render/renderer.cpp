@@ -44,6 +44,11 @@ void Renderer::State::clear_film() {
     for (const Buffer* b : {&sums, &half_sums, &samples, &counters}) device.fill_zero(*b);
 }
 
+void Renderer::State::name_settings() {
+    film.settings_text = text_of(settings);
+    film.settings = Hash().add(film.settings_text).hex();
+}
+
 void Renderer::State::load_film_arrays() {
     film.sums = device.download<std::int64_t>(sums);
     film.half_sums = device.download<std::int64_t>(half_sums);
@@ -73,8 +78,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     f.bins_x = settings.bins_x, f.bins_y = settings.bins_y;
     f.quanta_log2 = s.packed.quanta_log2;
     f.scene = hash_of(scene);
-    f.settings_text = text_of(settings);
-    f.settings = Hash().add(f.settings_text).hex();
+    s.name_settings();
     f.devices = {device.info().name + ", " + device.info().driver};
     s.tiles = std::size_t((f.width + FILM_TILE - 1) / FILM_TILE) * ((f.height + FILM_TILE - 1) / FILM_TILE);
     s.sums = device.allocate(f.pixels() * f.bins() * FILM_CHANNELS * sizeof(std::int64_t));
@@ -101,6 +105,15 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
 }
 
 Renderer::~Renderer() = default;
+
+void Renderer::restart(std::uint32_t seed) {
+    State& s = *state_;
+    s.settings.seed = s.frame.seed = seed;
+    s.device.write(s.scene.frame, &s.frame, sizeof s.frame);
+    s.name_settings();
+    s.clear_film();
+    s.film.ranges.clear();
+}
 
 Film Renderer::film() {
     state_->load_film_arrays();

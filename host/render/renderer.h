@@ -50,6 +50,10 @@ class Renderer {
     /// Adds these samples to every pixel. Returns the range that was rendered.
     SampleRange render(SampleRange range, const std::function<bool(const Progress&)>& report);
 
+    /// Begins the film again, with another seed: the same bits as a new renderer's, without the work of
+    /// making one.
+    void restart(std::uint32_t seed);
+
     /// The film so far, read from the device. Equal work gives equal bytes.
     Film film();
 

@@ -42,6 +42,7 @@ struct Renderer::State {
     /// Renders work[first, first + count), whose samples are counted from first_sample.
     void launch(std::size_t first, std::size_t count, std::uint64_t first_sample);
     void clear_film();
+    void name_settings();  ///< in the film
     /// Fills source_names and light_source; before the packed arrays go.
     void name_sources(const Scene& from);
     void load_film_arrays();

@@ -14,6 +14,7 @@ struct RenderGoal {
     double error = 0;       ///< estimated relMSE of the picture; 0: not asked for
     double seconds = 0;     ///< of rendering; 0: not asked for
     bool adaptive = false;  ///< samples go where they lower the error most (render/adaptive.h)
+    bool follow = true;  ///< estimate the error now and then for reports, also where nothing is decided by it
 };
 
 enum class Stop { samples, error, time, interrupt };

@@ -48,6 +48,23 @@ TEST(Renderer, a_crop_has_the_pixels_of_the_whole) {
                     << x << "," << y;
 }
 
+TEST(Renderer, begins_again_with_another_seed_as_a_new_one_would) {
+    const Scene scene = varied_scene();
+    RenderSettings settings = analytic::varied_settings();
+    Renderer renderer(test_device(), scene, settings);
+    const auto go_on = [](const Progress&) { return true; };
+    renderer.render({0, 3}, go_on);
+    renderer.restart(77);
+    renderer.render({0, 1}, go_on);
+    renderer.render({1, 2}, go_on);
+    const Film again = renderer.film();
+    settings.seed = 77;
+    const Film other = render(test_device(), scene, settings, {{0, 2}});
+    expect_same_bytes(again, other, "again");
+    EXPECT_EQ(again.settings_text, other.settings_text);
+    EXPECT_EQ(again.settings, other.settings);
+}
+
 TEST(Renderer, bins_share_the_samples_of_a_pixel) {
     const Scene scene = varied_scene();
     RenderSettings settings = analytic::varied_settings();

@@ -1,0 +1,64 @@
+#include "app/prepare.h"
+
+#include "app/choose_view.h"
+#include "base/log.h"
+#include "check/verdict.h"
+#include "measure/tune.h"
+#include "scene/builtin_scene.h"
+
+namespace triad {
+
+Scene load_scene(const RenderOptions& o) {
+    Scene scene;
+    if (o.scene_path.empty()) {
+        scene = builtin_scene();
+    } else {
+        GltfReport report;
+        scene = load_gltf(o.scene_path, {o.scene_index}, &report);
+        for (const std::string& warning : report.warnings) warn(warning);
+    }
+    if (const std::size_t dropped = validate(scene))
+        detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
+    if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
+    if (!has_light(scene)) {
+        scene.sky = vec3(1.0f);
+        inform("The scene has no light: it gets a plain white sky (--env FILE lights it with a panorama).");
+    }
+    return scene;
+}
+
+RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
+    const SceneCamera* camera = o.look_at ? nullptr : choose_camera(scene, o.camera);
+    const uvec2 size = choose_size(o, camera);
+    RenderSettings settings;
+    settings.width = size.x, settings.height = size.y;
+    if (o.crop) settings.crop = *o.crop;
+    if (o.pixel) {
+        if ((*o.pixel)[0] >= size.x || (*o.pixel)[1] >= size.y)
+            throw Error(Exit::usage, "--pixel " + std::to_string((*o.pixel)[0]) + "," +
+                                         std::to_string((*o.pixel)[1]) + " is not in the picture of " +
+                                         std::to_string(size.x) + " x " + std::to_string(size.y) +
+                                         " pixels.");
+        settings.crop = {(*o.pixel)[0], (*o.pixel)[1], 1, 1};
+    }
+    settings.bins_x = o.bins_x, settings.bins_y = o.bins_y;
+    settings.seed = o.seed;
+    settings.max_depth = o.max_depth;
+    settings.roulette = o.roulette;
+    settings.transparent = o.transparent;
+    settings.view = choose_view(o, scene, camera, size);
+    settings.environment_rotation = o.env_rotate * pi / 180;
+    settings.environment_strength = o.env_strength;
+    return settings;
+}
+
+Device open_device(const RenderOptions& o) {
+    Device device = Device::open({.selector = o.device, .threads = o.threads});
+    const std::size_t local = ensure_tuned(device);
+    require_right(ensure_checked(device), device.info(), o.force);
+    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", work-groups of " +
+           std::to_string(local));
+    return device;
+}
+
+}  // namespace triad

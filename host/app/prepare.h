@@ -1,0 +1,21 @@
+#pragma once
+/// From the options of `triad render` to what a renderer needs: scene, settings, device.
+#include "app/render_options.h"
+#include "device/device.h"
+#include "render/settings.h"
+#include "scene/scene.h"
+
+namespace triad {
+
+/// The scene with its light: environment of the command line, or a plain sky where nothing gives light.
+/// Warnings are logged. Throws Error(scene), Error(unsupported).
+Scene load_scene(const RenderOptions& options);
+
+/// What decides the picture, the view chosen. Throws Error(usage) for a pixel outside it.
+RenderSettings settings_of(const RenderOptions& options, const Scene& scene);
+
+/// The device of --device and --threads, tuned, and checked unless it was before. Throws Error(device) when
+/// it computes wrong answers and --force is not given.
+Device open_device(const RenderOptions& options);
+
+}  // namespace triad
