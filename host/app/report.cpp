@@ -71,6 +71,13 @@ void write_report(const std::string& path, const std::string& command, const Dev
         throw Error(Exit::scene, "Cannot write the report to standard output.");
 }
 
+std::string machine_words() {
+    const Json m = machine();
+    return m["processor"].get<std::string>() + ", " + std::to_string(m["cores"].get<unsigned>()) + " cores, " +
+           bytes_text(m["memory_bytes"].get<std::uint64_t>()) + ", " + m["system"].get<std::string>() + " (" +
+           m["architecture"].get<std::string>() + ")";
+}
+
 std::string bytes_text(std::uint64_t bytes) {
     const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
     auto value = static_cast<double>(bytes);

@@ -16,6 +16,9 @@ Json to_json(const DeviceInfo& device);
 /// null.
 void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows);
 
+/// "AMD EPYC, 2 cores, 24.9 GB, Linux 6.1.0 (x86_64)".
+std::string machine_words();
+
 /// 1234567 -> "1.2 MB".
 std::string bytes_text(std::uint64_t bytes);
 

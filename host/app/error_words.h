@@ -1,0 +1,30 @@
+#pragma once
+/// Numbers and verdicts of an error bench as people read them; plain text.
+#include <string>
+
+#include "measure/error_bench.h"
+#include "measure/error_score.h"
+
+namespace triad {
+
+/// Three digits: "0.00123", "1.23e-05", "45.6", "12300".
+std::string digits3(double value);
+
+/// "low to high".
+std::string interval_words(const Estimate& estimate);
+
+/// What the curve says about its setting in one sentence. `first`: the scene's first setting.
+struct Verdict {
+    std::string words;
+    enum class Tone { plain, good, bad } tone = Tone::plain;
+};
+Verdict verdict_of(const ErrorCurve& curve, const ErrorCurve& first);
+Verdict verdict_of(const ErrorChange& change);
+
+/// "fell with samples^-0.50 (-0.52 to -0.48)", or why that is not known.
+std::string slope_words(const ErrorCurve& curve);
+
+/// "score 104 (98 to 111)", or why there is none.
+std::string score_words(const SettingScore& score);
+
+}  // namespace triad
