@@ -33,13 +33,7 @@ bool is_linear_format(const std::string& extension) { return extension == ".exr"
 
 /// Exposure, tone map, background, sRGB curve.
 EncodedPicture encoded(Device& device, const Film& film, const OutputStyle& style) {
-    static const std::map<std::string, ToneMap> maps = {{"none", ToneMap::none},
-                                                        {"aces", ToneMap::aces},
-                                                        {"agx", ToneMap::agx},
-                                                        {"khronos", ToneMap::khronos}};
-    std::vector<float> rgba =
-        resolve_display(device, film, {static_cast<float>(style.exposure), maps.at(style.tone_map)});
-    if (style.background) put_on_background(rgba, *style.background);
+    const std::vector<float> rgba = display_of(device, film, style);
     const unsigned channels = has_alpha(film) && !style.background ? 4 : 3;
     return {film.width, film.height, channels, style.bits, encode_srgb(rgba, channels, style.bits), {}};
 }
@@ -107,6 +101,17 @@ void check_writable(const std::string& path) {
     if (file < 0) throw Error(Exit::scene, "Cannot write " + path + ": " + std::strerror(errno) + ".");
     ::close(file);
     fs::remove(probe);
+}
+
+std::vector<float> display_of(Device& device, const Film& film, const OutputStyle& style) {
+    static const std::map<std::string, ToneMap> maps = {{"none", ToneMap::none},
+                                                        {"aces", ToneMap::aces},
+                                                        {"agx", ToneMap::agx},
+                                                        {"khronos", ToneMap::khronos}};
+    std::vector<float> rgba =
+        resolve_display(device, film, {static_cast<float>(style.exposure), maps.at(style.tone_map)});
+    if (style.background) put_on_background(rgba, *style.background);
+    return rgba;
 }
 
 void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,

@@ -29,6 +29,9 @@ void check_format(const std::string& path);
 /// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.
 void check_writable(const std::string& path);
 
+/// What a PNG shows before the sRGB curve: tone-mapped RGBA, on the background where there is one.
+std::vector<float> display_of(Device& device, const Film& film, const OutputStyle& style);
+
 /// Writes the film to each path in the form that its extension asks for. `layers` go into EXR files,
 /// `metadata` into all. Where the film has alpha and the style no background colour, formats that can keep
 /// alpha do.

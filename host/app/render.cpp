@@ -29,14 +29,6 @@ std::string format(const char* pattern, auto... values) {
     return text;
 }
 
-ProgressStyle style_of(const std::string& name) {
-    if (name == "bar") return ProgressStyle::bar;
-    if (name == "lines") return ProgressStyle::lines;
-    if (name == "json") return ProgressStyle::json;
-    if (name == "none") return ProgressStyle::none;
-    return automatic_progress();
-}
-
 /// The planes of --aov, as EXR channels.
 std::vector<Channel> layers_of(const RenderOptions& o, Renderer& renderer, const Film& film) {
     std::vector<Channel> layers;
@@ -130,7 +122,7 @@ Exit run(RenderOptions o) {
     RenderResult result;
     Progress progress;
     {
-        ProgressDisplay display(style_of(o.progress));
+        ProgressDisplay display(progress_style(o.progress));
         result = renderer.render_until(goal, [&](const Progress& p) {
             progress = p;
             display.update({.done = p.done,

@@ -58,12 +58,14 @@ Json to_json(const DeviceInfo& d) {
             {"settings", d.settings}};
 }
 
-void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows) {
-    const Json report = {{"schema", "triad." + command + "/1"},
-                         {"version", TRIAD_VERSION},
-                         {"machine", machine()},
-                         {"device", device ? to_json(*device) : Json()},
-                         {"rows", std::move(rows)}};
+void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows,
+                  const Json& more) {
+    Json report = {{"schema", "triad." + command + "/1"},
+                   {"version", TRIAD_VERSION},
+                   {"machine", machine()},
+                   {"device", device ? to_json(*device) : Json()},
+                   {"rows", std::move(rows)}};
+    report.update(more);
     // Names in files need not be valid UTF-8; they must not stop a report.
     const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     if (path != "-") return write_file(path, text);

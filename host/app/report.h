@@ -13,8 +13,9 @@ using Json = nlohmann::ordered_json;
 Json to_json(const DeviceInfo& device);
 
 /// Writes the report of `command` to `path`, aside and renamed ("-": standard output). Without a device:
-/// null.
-void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows);
+/// null. `more` is an object whose members follow the rows.
+void write_report(const std::string& path, const std::string& command, const DeviceInfo* device, Json rows,
+                  const Json& more = Json::object());
 
 /// "AMD EPYC, 2 cores, 24.9 GB, Linux 6.1.0 (x86_64)".
 std::string machine_words();

@@ -44,6 +44,14 @@ ProgressStyle automatic_progress() {
     return ::isatty(STDERR_FILENO) ? ProgressStyle::bar : ProgressStyle::lines;
 }
 
+ProgressStyle progress_style(const std::string& name) {
+    if (name == "bar") return ProgressStyle::bar;
+    if (name == "lines") return ProgressStyle::lines;
+    if (name == "json") return ProgressStyle::json;
+    if (name == "none") return ProgressStyle::none;
+    return automatic_progress();
+}
+
 std::string relmse_text(double relmse, const std::optional<double>& trend) {
     if (relmse < 0) return "?";
     return format("%.2g", relmse) + (trend ? format(" ~ spp^%.2f", *trend) : "");

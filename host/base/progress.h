@@ -11,6 +11,8 @@ enum class ProgressStyle { none, bar, lines, json };
 
 /// What a person gets: a bar when standard error is a terminal, else lines; none at log level 0.
 ProgressStyle automatic_progress();
+/// bar, lines, json, none; anything else is automatic.
+ProgressStyle progress_style(const std::string& name);
 
 /// How far a render is.
 struct ProgressState {

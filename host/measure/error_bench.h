@@ -6,18 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "device/device.h"
+#include "measure/reference_error.h"
+#include "measure/repetitions.h"
+
 namespace triad {
-
-/// A number with its 95 % interval.
-struct Estimate {
-    double value = 0, low = 0, high = 0;
-};
-
-/// Interleaved R, G, B, row by row.
-struct RgbImage {
-    unsigned width = 0, height = 0;
-    std::vector<float> rgb;
-};
 
 /// One run read at one of its budgets: a row of the CSV.
 struct ErrorRun {
@@ -30,6 +23,7 @@ struct ErrorRun {
     /// Of the picture, the reference's own variance subtracted: unbiased, so that a value far below that
     /// variance can come out negative.
     double mse = 0, relmse = 0;
+    double reference_relmse = 0;  ///< what was subtracted from relmse
     double relmse_trimmed = 0;    ///< without the 0.1 % of the pixels that have most of it
     double flip = 0;              ///< mean LDR-FLIP, tone-mapped as the render's PNG
     std::uint64_t fireflies = 0;  ///< pixels that are more than 20 times as bright as the reference
@@ -86,8 +80,8 @@ struct ErrorSetting {
 struct ErrorChange {
     enum class Verdict { same, better, worse };
     std::string scene, setting;
-    Estimate time_ratio;   ///< time to equal error, new over old
-    Estimate error_ratio;  ///< relMSE at equal samples, new over old
+    Estimate time_ratio;                  ///< time to equal error, new over old
+    std::optional<Estimate> error_ratio;  ///< relMSE at the most samples that both have, new over old
     Verdict verdict = Verdict::same;
     double p = 1;  ///< of the time, two-sided (Welch's t on logarithms)
 };
@@ -95,6 +89,7 @@ struct ErrorChange {
 struct ErrorBench {
     std::vector<ErrorScene> scenes;
     std::vector<ErrorSetting> settings;
+    DeviceInfo device;  ///< of the first setting
     unsigned repetitions = 0;
     std::vector<ErrorRun> runs;      ///< in the order they were made
     std::vector<ErrorCurve> curves;  ///< scene by scene, settings in their order

@@ -1,0 +1,17 @@
+// triad bench: measurements of speed and error. One file for each kind.
+#include "app/bench_error.h"
+#include "app/command_line.h"
+
+namespace triad {
+
+void add_bench(CLI::App& app, Exit& exit) {
+    CLI::App* bench = app.add_subcommand("bench", "Measure speed and error");
+    add_bench_error(*bench, exit);
+    for (CLI::App* kind : bench->get_subcommands(nullptr)) {
+        add_common(*kind);
+        kind->set_help_flag("-h,--help", "Show this help");
+    }
+    bench->require_subcommand(1, 1);
+}
+
+}  // namespace triad
