@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/bench_tables.h"
+#include "app/error_report.h"
 #include "app/experiment.h"
 #include "app/interrupt.h"
 #include "app/prepare.h"
@@ -182,8 +183,11 @@ Exit run_bench_error(const BenchErrorOptions& o) {
     if (!o.folder.empty()) fs::create_directories(o.folder);
     const ErrorBench bench = measure_errors(o);
     if (o.json != "-" && o.csv != "-") std::fputs(table_of(bench).c_str(), stdout);
-    if (!o.folder.empty())
-        write_bench(bench, fs::path(o.folder) / "report.json", fs::path(o.folder) / "runs.csv");
+    if (!o.folder.empty()) {
+        const fs::path folder = o.folder;
+        write_bench(bench, folder / "report.json", folder / "runs.csv");
+        write_error_report(folder, bench, {});
+    }
     write_bench(bench, o.json, o.csv);
     std::string wrong, worse;
     for (const ErrorCurve& c : bench.curves)
@@ -251,7 +255,9 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
         ->check(CLI::ExistingFile)
         ->type_name("CSV");
     command->add_flag("--fail-if-worse", o->fail_if_worse, "Exit 7 when something is worse than --against");
-    command->add_option("-o,--output", o->folder, "Folder for report.json and runs.csv")->type_name("FOLDER");
+    command
+        ->add_option("-o,--output", o->folder, "Folder for report.html, its plots, report.json and runs.csv")
+        ->type_name("FOLDER");
     command->add_option("--csv", o->csv, "Write the runs as CSV (-: standard output)")->type_name("FILE");
     command->add_option("--json", o->json, "Write curves as JSON (-: standard output)")->type_name("FILE");
     command->add_option("--kernels", o->kernels, "Read kernel source from here instead of the copy inside")

@@ -138,8 +138,9 @@ std::string changes_html(const ErrorBench& bench) {
                 "</span></td>" +
                 cell("Time, new / old", number(change.time_ratio.value),
                      html_escape(interval_words(change.time_ratio))) +
-                cell("relMSE, new / old", number(change.error_ratio.value),
-                     html_escape(interval_words(change.error_ratio))) +
+                (change.error_ratio ? cell("relMSE, new / old", number(change.error_ratio->value),
+                                           html_escape(interval_words(*change.error_ratio)))
+                                    : cell("relMSE, new / old", "-", "no samples in common")) +
                 cell("p", number(change.p)) + words_cell("Verdict", verdict_of(change)) + "</tr>\n";
     return html + "</tbody></table>\n";
 }
