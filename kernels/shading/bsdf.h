@@ -259,7 +259,7 @@ TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, f
 #endif
 
 /* f |cos wi| and its pdf over all lobes; delta lobes excluded. */
-TRIAD_FUNCTION float3 bsdf_eval(const Bsdf* b, float3 wo, float3 wi, float* pdf) {
+TRIAD_FUNCTION_PER_CALL float3 bsdf_eval(const Bsdf* b, float3 wo, float3 wi, float* pdf) {
     float3 f = (float3)(0.0f);
     *pdf = 0.0f;
     if (wi.z > 0.0f) {

@@ -34,7 +34,7 @@ TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
 }
 
 /* Radiance and alpha along one camera ray. */
-TRIAD_FUNCTION float4 path_trace(const Scene* scene, const Sampler* sampler, Ray ray, Tally* tally) {
+TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sampler, Ray ray, Tally* tally) {
     global const Frame* frame = scene->frame;
     const uint max_depth = frame->max_depth;
     float3 radiance = (float3)(0.0f), throughput = (float3)(1.0f);
@@ -222,12 +222,13 @@ TRIAD_FUNCTION uint film_pixel(const Frame* frame, uint x, uint y) {
 }
 
 #if !TRIAD_RECORD
-/* Adds to the film the samples that work[first_work, first_work + work_count) names, from first_sample on. */
-kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_sums, global uint* samples,
-                        volatile global uint* counters, global const TileWork* work, uint first_work,
-                        uint work_count, uint first_sample_low, uint first_sample_high) {
-    const size_t item = get_global_id(0);
-    if (item >= (size_t)work_count * FILM_TILE_PIXELS) return;
+#define TRACE_PARAMETERS                                                                               \
+    SCENE_PARAMETERS, global long *sums, global long *half_sums, global uint *samples,                 \
+        volatile global uint *counters, global const TileWork *work, uint first_work, uint work_count, \
+        uint first_sample_low, uint first_sample_high
+
+/* What one item of trace_paths does. */
+TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;
     work += first_work + item / FILM_TILE_PIXELS;
@@ -269,5 +270,13 @@ kernel void trace_paths(SCENE_PARAMETERS, global long* sums, global long* half_s
     counter_add(counters, COUNTER_SATURATED, tally.saturated);
     counter_add(counters, COUNTER_TRUNCATED, tally.truncated);
     counter_add(counters, COUNTER_CUT_ENERGY, tally.cut_energy);
+}
+
+/* Adds to the film the samples that work[first_work, first_work + work_count) names, from first_sample on. */
+kernel void trace_paths(TRACE_PARAMETERS) {
+    const size_t item = get_global_id(0);
+    if (item < (size_t)work_count * FILM_TILE_PIXELS)
+        trace_pixel(SCENE_ARGUMENTS, sums, half_sums, samples, counters, work, first_work, work_count,
+                    first_sample_low, first_sample_high, item);
 }
 #endif

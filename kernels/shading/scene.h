@@ -42,12 +42,12 @@ typedef struct Scene {
         global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,         \
         global const ushort *env_columns, global const float *env_cosines
 
-#define SCENE_FROM_PARAMETERS                                                                               \
-    {                                                                                                       \
-        frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials, \
-            texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows,          \
-            env_columns, env_cosines                                                                        \
-    }
+#define SCENE_ARGUMENTS                                                                                     \
+    frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials,     \
+        texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows, env_columns, \
+        env_cosines
+#define SCENE_FROM_PARAMETERS \
+    { SCENE_ARGUMENTS }
 
 TRIAD_FUNCTION float3 load3(global const float* values, uint index) { return vload3(index, values); }
 
