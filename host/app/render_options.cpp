@@ -54,7 +54,7 @@ void declare(CLI::App& command, RenderOptions& o) {
     command
         .add_option(
             "--roulette", o.roulette,
-            "Paths that carry less than this are ended in proportion (default 0.5: least error for its "
+            "Paths that carry less than this are ended in proportion (default 0.8; 0.5: least error for its "
             "time; 1: most samples)")
         ->check(CLI::Range(0.01, 10.0))
         ->type_name("T");

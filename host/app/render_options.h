@@ -8,6 +8,7 @@
 #include "app/output.h"
 #include "base/math.h"
 #include "render/schedule.h"
+#include "render/settings.h"
 
 namespace triad {
 
@@ -26,7 +27,7 @@ struct RenderOptions {
     std::optional<SampleRange> samples;
     std::uint32_t seed = 0;
     unsigned max_depth = 0;
-    double roulette = 0.5;
+    double roulette = RenderSettings{}.roulette;
     unsigned bins_x = 1, bins_y = 1;
     std::string device;
     unsigned threads = 0;

@@ -17,8 +17,8 @@ struct RenderSettings {
     unsigned max_depth = 0;  ///< edges of a path; 0: no limit, Russian roulette ends it
     /// Roulette spares a path that carries more than this throughput and kills the others in proportion. No
     /// value biases. Measured (docs/performance.md): 0.5 has the least error for its time, 1 the most samples
-    /// for it.
-    double roulette = 0.5;
+    /// for it; the default lies between.
+    double roulette = 0.8;
     bool transparent =
         false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
     View view;

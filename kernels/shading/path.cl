@@ -229,6 +229,7 @@ TRIAD_FUNCTION uint film_pixel(const Frame* frame, uint x, uint y) {
 
 /* What one item of trace_paths does. */
 TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
+    if (item >= (size_t)work_count * FILM_TILE_PIXELS) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;
     work += first_work + item / FILM_TILE_PIXELS;
@@ -274,9 +275,7 @@ TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
 
 /* Adds to the film the samples that work[first_work, first_work + work_count) names, from first_sample on. */
 kernel void trace_paths(TRACE_PARAMETERS) {
-    const size_t item = get_global_id(0);
-    if (item < (size_t)work_count * FILM_TILE_PIXELS)
-        trace_pixel(SCENE_ARGUMENTS, sums, half_sums, samples, counters, work, first_work, work_count,
-                    first_sample_low, first_sample_high, item);
+    trace_pixel(SCENE_ARGUMENTS, sums, half_sums, samples, counters, work, first_work, work_count,
+                first_sample_low, first_sample_high, get_global_id(0));
 }
 #endif

@@ -12,7 +12,7 @@ namespace {
 constexpr unsigned size = 48, batches = 12, spp = 16;
 
 std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0,
-                          bool adaptive = false, double roulette = 0.5) {
+                          bool adaptive = false, double roulette = 0.8) {
     validate(scene);
     std::vector<Batch> result;
     for (unsigned k = 0; k < batches; ++k) {

@@ -10,7 +10,7 @@
 namespace triad::analytic {
 namespace {
 
-constexpr unsigned size = 64;
+constexpr unsigned size = 80;  // the scatter of an estimate falls with the number of pixels
 
 struct Rendered {
     Film film;
