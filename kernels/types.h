@@ -101,7 +101,9 @@ typedef struct Geometry {
     uint uv[2];       /* float[2] */
     uint colour;      /* float[4], linear */
     uint first_light; /* light of triangle first_triangle when the material emits (one light per triangle), else NONE */
-    uint unused[4];
+    uint touching;    /* solid body: material of the body whose surface coincides with these triangles, facing the other
+                       * way, or TRIAD_NONE. The tree holds one of the two surfaces */
+    uint unused[3];
 } Geometry;
 TRIAD_SIZE(Geometry, 48);
 

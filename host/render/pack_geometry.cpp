@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "render/pack.h"
+#include "render/refine.h"
+#include "render/touching.h"
 
 namespace triad {
 namespace {
@@ -32,37 +34,75 @@ struct Shared {
 
 class GeometryPacker {
   public:
-    GeometryPacker(const Scene& scene, PackedScene& out) : scene_(scene), out_(out) {}
+    /// `eye` in the packed world; none: nothing is refined.
+    GeometryPacker(const Scene& scene, PackedScene& out, const std::optional<dvec3>& eye)
+        : scene_(scene),
+          out_(out),
+          eye_(eye),
+          reach_(glm::max(glm::abs(out.bounds.lo), glm::abs(out.bounds.hi))) {}
 
-    /// Appends the mesh, transformed, and its triangles for the tree builder.
-    void add(const Mesh& mesh, const dmat4& to_space, std::vector<BvhTriangle>& tree) {
-        for (const Primitive& p : mesh.primitives) add(p, to_space, tree);
+    /// Appends the mesh, transformed into the world, and its triangles for the tree builder.
+    void add_placed(const Mesh& mesh, const dmat4& to_world, std::vector<BvhTriangle>& tree) {
+        for (const Primitive& p : mesh.primitives) {
+            std::vector<dvec3> position = transformed(p, to_world);
+            const double reach = std::max({reach_.x, reach_.y, reach_.z});
+            if (!eye_ || !needs_refining(p, position, *eye_, reach)) {
+                add(p, share(p), position, to_world, tree);
+                continue;
+            }
+            Primitive refined = p;
+            refine(refined, position, *eye_, reach);
+            detail("cut triangles that are large beside their distance to the eye: " +
+                   std::to_string(p.triangles.size()) + " became " +
+                   std::to_string(refined.triangles.size()));
+            add(refined, store(refined), position, to_world, tree);
+        }
+    }
+
+    /// The same in the mesh's own space, for instances to share.
+    void add_shared(const Mesh& mesh, std::vector<BvhTriangle>& tree) {
+        for (const Primitive& p : mesh.primitives)
+            add(p, share(p), transformed(p, dmat4(1.0)), dmat4(1.0), tree);
     }
 
   private:
     const Scene& scene_;
     PackedScene& out_;
+    const std::optional<dvec3> eye_;
+    const dvec3 reach_;
     std::unordered_map<const Primitive*, Shared> shared_;
 
-    Shared share(const Primitive& p) {
-        auto [it, fresh] = shared_.try_emplace(&p, Shared{{TRIAD_NONE, TRIAD_NONE}, TRIAD_NONE});
-        if (!fresh) return it->second;
+    static std::vector<dvec3> transformed(const Primitive& p, const dmat4& m) {
+        std::vector<dvec3> position;
+        position.reserve(p.positions.size());
+        for (const vec3& v : p.positions) position.push_back(transform_point(m, dvec3(v)));
+        return position;
+    }
+
+    Shared store(const Primitive& p) {
+        Shared at{{TRIAD_NONE, TRIAD_NONE}, TRIAD_NONE};
         for (int set = 0; set < 2; ++set)
             if (!p.uvs[set].empty()) {
-                it->second.uv[set] = index32(out_.uvs.size() / 2);
+                at.uv[set] = index32(out_.uvs.size() / 2);
                 for (const vec2& uv : p.uvs[set]) out_.uvs.insert(out_.uvs.end(), {uv.x, uv.y});
             }
         if (!p.colours.empty()) {
-            it->second.colour = index32(out_.colours.size() / 4);
+            at.colour = index32(out_.colours.size() / 4);
             for (const vec4& c : p.colours) out_.colours.insert(out_.colours.end(), {c.x, c.y, c.z, c.w});
         }
-        return it->second;
+        return at;
     }
 
-    void add(const Primitive& p, const dmat4& m, std::vector<BvhTriangle>& tree) {
+    Shared share(const Primitive& p) {
+        const auto it = shared_.find(&p);
+        return it != shared_.end() ? it->second : shared_.emplace(&p, store(p)).first->second;
+    }
+
+    /// `position`: of p's vertices in the space of the tree, which `m` leads to.
+    void add(const Primitive& p, const Shared& shared, const std::vector<dvec3>& position, const dmat4& m,
+             std::vector<BvhTriangle>& tree) {
         const dmat3 linear(m);
         const bool mirrored = glm::determinant(linear) < 0.0;
-        const Shared shared = share(p);
         dev::Geometry g{};
         g.first_triangle = index32(out_.triangles.size());
         g.material = static_cast<std::uint32_t>(p.material);
@@ -71,10 +111,8 @@ class GeometryPacker {
         g.uv[0] = shared.uv[0], g.uv[1] = shared.uv[1];
         g.colour = shared.colour;
         g.first_light = TRIAD_NONE;
+        g.touching = TRIAD_NONE;
 
-        std::vector<vec3> position;
-        position.reserve(p.positions.size());
-        for (const vec3& v : p.positions) position.push_back(vec3(transform_point(m, dvec3(v))));
         const dmat3 normal_matrix = glm::transpose(glm::inverse(linear));
         for (const vec3& n : p.normals) append(out_.normals, vec3(glm::normalize(normal_matrix * dvec3(n))));
         for (const vec4& t : p.tangents) {
@@ -87,7 +125,7 @@ class GeometryPacker {
             // Mirroring turns the winding around; swapping two corners keeps the front the front.
             const std::uint32_t corner[3] = {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z};
             BvhTriangle b;
-            for (int c = 0; c < 3; ++c) b.corner[c] = position[corner[c]];
+            for (int c = 0; c < 3; ++c) b.corner[c] = vec3(position[corner[c]]);
             b.primitive = index32(out_.triangles.size());
             b.geometry = geometry;
             b.opaque = material.alpha_mode == AlphaMode::opaque;
@@ -150,7 +188,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
         (settings.view.orthographic ? settings.view.extent.x + settings.view.extent.y : 0.0);
     reach.add({eye - around, eye + around});
 
-    GeometryPacker packer(scene, packed);
+    GeometryPacker packer(scene, packed, settings.view.orthographic ? std::nullopt : std::optional(eye));
     std::vector<BvhTriangle> flat;
     std::vector<BvhInstance> boxes;
     std::vector<std::uint32_t> roots(scene.meshes.size(), TRIAD_NONE);
@@ -168,7 +206,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
         const dmat4 to_rebased = rebase * i.to_world;
         const Mesh& mesh = scene.meshes[i.mesh];
         if (!instanced(i.mesh)) {
-            packer.add(mesh, to_rebased, flat);
+            packer.add_placed(mesh, to_rebased, flat);
             continue;
         }
         packed.instances = true;
@@ -183,7 +221,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
         }
         if (roots[i.mesh] == TRIAD_NONE) {
             std::vector<BvhTriangle> own;
-            packer.add(mesh, dmat4(1.0), own);
+            packer.add_shared(mesh, own);
             for (const BvhTriangle& t : own)
                 for (const vec3& c : t.corner) object_bounds[i.mesh].add(dvec3(c));
             roots[i.mesh] = build_bvh(own, {}, object_reach[i.mesh], packed.bvh);
@@ -196,6 +234,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
     if (flat.empty() && boxes.empty())
         throw Error(Exit::scene,
                     "There is nothing to render in " + scene.name + ": its scene has no triangles.");
+    note_touching(scene, packed, flat);
     packed.root = build_bvh(flat, boxes, std::max(largest(reach.lo), largest(reach.hi)), packed.bvh);
     packed.flattened = std::move(flat);
     detail("packed " + std::to_string(packed.triangles.size()) + " triangles in " +

@@ -47,7 +47,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
 #if TRIAD_TRANSMISSION
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
-    uint body = TRIAD_NONE; /* material of the body that the path entered last and has not left */
+    Bodies bodies = (uint4)(TRIAD_NONE);                                 /* that the path is in */
 #endif
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
@@ -90,10 +90,14 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const int back = math_dot(wo, s.geometric_normal) < 0.0f;
         const float3 ng = back ? -s.geometric_normal : s.geometric_normal;
 #if TRIAD_TRANSMISSION
-        /* a body's inner side is proof of where the edge ran; else it ended on something inside the body */
-        if (back && (flags & MATERIAL_SOLID)) body = s.material;
-        if (body != TRIAD_NONE)
-            throughput *= vertex_transmittance(scene->materials + body, math_length(s.position - from));
+        /* the bodies on this side of a body's surface and on the other: itself, and one that touches it */
+        const uint solid = flags & MATERIAL_SOLID ? s.material : TRIAD_NONE;
+        const uint touching = solid == TRIAD_NONE ? TRIAD_NONE : s.touching;
+        const uint inner = back ? solid : touching, outer = back ? touching : solid;
+        bodies = bodies_proved(bodies, inner);
+        const Bodies beyond = bodies_beyond(bodies, inner, outer);
+        if (bodies.s0 != TRIAD_NONE)
+            throughput *= vertex_transmittance(scene->materials + bodies.s0, math_length(s.position - from));
         from = s.position;
 #endif
 #if TRIAD_UNLIT
@@ -139,6 +143,14 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         input.transmission = s.transmission;
         input.solid = (flags & MATERIAL_SOLID) != 0u;
         input.inside = (uint)(back && (flags & MATERIAL_SOLID));
+#if TRIAD_TRANSMISSION
+        if (solid != TRIAD_NONE &&
+            material->ior >= 1.0f) { /* against what is around: from the denser side it is seen */
+            const float here = bodies_index(scene, bodies), there = bodies_index(scene, beyond);
+            input.inside = there < here;
+            input.ior = input.inside ? here / there : there / here;
+        }
+#endif
         const float mirror = fma(1.0f - s.metallic, s.transmission, s.metallic);
         const float3 ns = vertex_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo, mirror);
         const ShadingFrame around = frame_make(ns);
@@ -162,8 +174,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                     float bsdf_pdf;
                     float3 direct = throughput * bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
 #if TRIAD_TRANSMISSION
-                    const uint around_light =
-                        side < 0.0f ? vertex_body_beyond(flags, back, s.material, body) : body;
+                    const uint around_light = side < 0.0f ? beyond.s0 : bodies.s0;
                     if (around_light != TRIAD_NONE && !light.distant)
                         direct *= vertex_transmittance(scene->materials + around_light,
                                                        math_length(light.target - s.position));
@@ -197,7 +208,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
 #if BSDF_TRANSMISSION
         if (sample.event & BSDF_TRANSMIT) {
             body_scale *= bsdf.body_scale;
-            body = vertex_body_beyond(flags, back, s.material, body);
+            bodies = beyond;
         }
 #endif
         pdf = (sample.event & BSDF_DELTA) ? 0.0f : sample.pdf;

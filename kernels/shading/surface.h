@@ -7,10 +7,12 @@
 
 typedef struct Surface {
     float3 position;
+    float3 start;            /* where rays leave from, before the offset: position, but not at an edge */
     float3 geometric_normal; /* unit, on the front side */
     float3 shading_normal;   /* unit, on the front side */
     float offset; /* how far a new ray starts off the surface: bounds the rounding error of position */
     uint geometry, material;
+    uint touching; /* of a body's surface: the material of the body on the other side, or TRIAD_NONE */
     float2 uv0, uv1;
     float3 base_colour;
     float metallic, roughness, transmission, specular;
@@ -97,6 +99,24 @@ TRIAD_FUNCTION float3 surface_corner(const Scene* scene, uint block, uint c) {
     return (float3)(p[0], p[4], p[8]);
 }
 
+/* A ray that leaves the triangle close to an edge where two walls meet at an acute angle would start beyond
+ * the other wall: the offset along the normal passes it. So rays start at least eight offsets away from every
+ * edge (a quarter of the height, where the triangle is smaller), which keeps them inside down to angles of 7
+ * degrees. `twice_area` of the triangle p0, p0 + e1, p0 + e2; u, v: the weights of corners 1 and 2. */
+TRIAD_FUNCTION float3 surface_start(float3 p0, float3 e1, float3 e2, float u, float v, float3 position,
+                                    float twice_area, float offset) {
+    const float w = 1.0f - u - v, most = 8.0f * offset;
+    /* far from all edges, as nearly always: no edge is longer than this */
+    const float longest = 1.75f * (max_abs3(e1) + max_abs3(e2));
+    if (math_min(w, math_min(u, v)) * twice_area >= most * longest) return position;
+    const float least = most / twice_area;
+    const float w0 = math_min(least * math_length(e2 - e1), 0.25f);
+    const float w1 = math_min(least * math_length(e2), 0.25f), w2 = math_min(least * math_length(e1), 0.25f);
+    if (w >= w0 && u >= w1 && v >= w2) return position;
+    const float a = math_max(w, w0), b = math_max(u, w1), c = math_max(v, w2), inverse = 1.0f / (a + b + c);
+    return p0 + e1 * (b * inverse) + e2 * (c * inverse);
+}
+
 TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     const float u = hit->u, v = hit->v;
     const uint instance = hit->instance;
@@ -110,6 +130,7 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     Triangle t = {{0u, 0u, 0u}, 0u};
     if (attributes) t = scene->triangles[hit->primitive];
     s.material = g.material;
+    s.touching = g.touching;
     float3 p0 = surface_corner(scene, hit->block, 0u);
     float3 p1 = surface_corner(scene, hit->block, 1u);
     float3 p2 = surface_corner(scene, hit->block, 2u);
@@ -134,13 +155,15 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     const float3 e1 = p1 - p0, e2 = p2 - p0;
     const float3 any = (float3)(0.0f, 1.0f, 0.0f); /* keeps numbers finite where no normal exists */
     /* The edges are scaled first: the product of tiny ones would underflow. */
-    float3 across = math_cross(e1, e2);
+    const float3 product = math_cross(e1, e2);
+    float3 across = product;
     if (!(max_abs3(across) > 0x1.0p-40f)) across = math_cross(scale_to_one(e1), scale_to_one(e2));
     const float3 n = mirrored * normalize_or(across, any);
     s.geometric_normal = n;
     s.position = p0 + e1 * u + e2 * v;
     reach = math_max3((float3)(reach, max_abs3(p0), math_max3((float3)(max_abs3(p1), max_abs3(p2), 0.0f))));
     s.offset = 32.0f * 0x1.0p-23f * reach;
+    s.start = surface_start(p0, e1, e2, u, v, s.position, fabs(math_dot(n, product)), s.offset);
 
     float4 colour;
     surface_attributes(scene, &g, &t, u, v, &s.uv0, &s.uv1, &colour);

@@ -6,7 +6,7 @@
 
 /* A ray that leaves a surface to the side of `normal`, and never hits the triangle that it leaves. */
 TRIAD_FUNCTION Ray vertex_spawn(const Surface* s, float3 normal, const Hit* hit, float3 direction) {
-    const float3 origin = s->position + normal * s->offset;
+    const float3 origin = s->start + normal * s->offset;
     Ray ray;
     ray.origin[0] = origin.x, ray.origin[1] = origin.y, ray.origin[2] = origin.z;
     ray.direction[0] = direction.x, ray.direction[1] = direction.y, ray.direction[2] = direction.z;
@@ -18,7 +18,7 @@ TRIAD_FUNCTION Ray vertex_spawn(const Surface* s, float3 normal, const Hit* hit,
 
 /* The same towards a point, short of it by a rounding error. */
 TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, float3 normal, const Hit* hit, float3 target) {
-    const float3 origin = s->position + normal * s->offset;
+    const float3 origin = s->start + normal * s->offset;
     Ray ray = vertex_spawn(s, normal, hit, target - origin);
     ray.t_max = 1.0f - 0x1.0p-16f;
     return ray;
@@ -31,10 +31,39 @@ TRIAD_FUNCTION float3 vertex_transmittance(global const Material* body, float di
                     math_exp(-body->absorption[2] * distance));
 }
 
-/* The body beyond a surface that the path passes. */
-TRIAD_FUNCTION uint vertex_body_beyond(uint flags, int back, uint material, uint body) {
-    if (!(flags & MATERIAL_SOLID)) return body;
-    return back ? TRIAD_NONE : material;
+/* The bodies that a path is in, as materials: the one that it entered last comes first, TRIAD_NONE where
+ * there is none. What fills the space is the first; the surface of another is passed as if it were not there.
+ * So a body within another refracts against that one, and bodies that overlap meet without air between them.
+ */
+typedef uint4 Bodies;
+
+TRIAD_FUNCTION Bodies bodies_enter(Bodies b, uint body) { return (uint4)(body, b.s012); }
+
+TRIAD_FUNCTION Bodies bodies_leave(Bodies b, uint body) {
+    if (b.s0 == body) return (uint4)(b.s123, TRIAD_NONE);
+    if (b.s1 == body) return (uint4)(b.s0, b.s23, TRIAD_NONE);
+    if (b.s2 == body) return (uint4)(b.s01, b.s3, TRIAD_NONE);
+    if (b.s3 == body) return (uint4)(b.s012, TRIAD_NONE);
+    return b;
+}
+
+/* With the body whose inner side is seen: that is proof of where the path runs, wherever it was thought to
+ * be. */
+TRIAD_FUNCTION Bodies bodies_proved(Bodies b, uint inner) {
+    const int known = b.s0 == inner || b.s1 == inner || b.s2 == inner || b.s3 == inner;
+    return inner == TRIAD_NONE || known ? b : bodies_enter(b, inner);
+}
+
+/* Beyond a surface with the body `inner` on this side and `outer` on the other (either may be TRIAD_NONE). */
+TRIAD_FUNCTION Bodies bodies_beyond(Bodies b, uint inner, uint outer) {
+    if (inner != TRIAD_NONE) b = bodies_leave(b, inner);
+    return outer != TRIAD_NONE ? bodies_enter(b, outer) : b;
+}
+
+TRIAD_FUNCTION float bodies_index(const Scene* scene, Bodies b) {
+    return b.s0 == TRIAD_NONE
+               ? 1.0f
+               : math_max(scene->materials[b.s0].ior, 1.0f); /* an index of 0 lets nothing in */
 }
 #endif
 
@@ -44,7 +73,8 @@ TRIAD_FUNCTION uint vertex_body_beyond(uint flags, int back, uint material, uint
  * interpolation tilts it further. With N = (sqrt(1 - w), 0, sqrt(w)) and R.z = t, w is a root of 2 a w^2 - b
  * w + c / 2 = 0: Cycles' ensure_valid_specular_reflection. */
 TRIAD_FUNCTION float3 vertex_shading_normal(float3 ns, float3 ng, float3 wo, float mirror) {
-    const float facing = math_dot(ns, wo), least = 0.02f;
+    /* a normal that hardly faces wo is turned until it does, but never farther than the surface itself */
+    const float facing = math_dot(ns, wo), least = math_min(0.02f, math_dot(ng, wo));
     float3 n = ns;
     if (facing < least) {
         n = normalize_or(ns + wo * (least - facing), ng);
