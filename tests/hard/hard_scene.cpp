@@ -64,10 +64,15 @@ dvec3 mean(const Film& film, unsigned x, unsigned y, unsigned width, unsigned he
     return sum / (double(width) * height);
 }
 
-Measured measure(const Scene& scene, Shot shot, unsigned count, const std::array<unsigned, 4>& r) {
+Measured measure(const Scene& scene, const Shot& shot, unsigned count, const std::array<unsigned, 4>& r) {
+    Renderer renderer(test_device(), scene, settings_of(scene, shot));
     double sum = 0, squares = 0;
-    for (shot.seed = 1; shot.seed <= count; ++shot.seed) {
-        const double m = mean(render(scene, shot), r[0], r[1], r[2], r[3]).y;
+    for (std::uint32_t seed = 1; seed <= count; ++seed) {
+        renderer.restart(seed);
+        renderer.render({0, shot.spp}, [](const Progress&) { return true; });
+        const Film film = renderer.film();
+        EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);
+        const double m = mean(film, r[0], r[1], r[2], r[3]).y;
         sum += m, squares += m * m;
     }
     const double average = sum / count;

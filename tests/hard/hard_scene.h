@@ -40,7 +40,8 @@ dvec3 mean(const Film& film, unsigned x, unsigned y, unsigned width, unsigned he
 struct Measured {
     double mean = 0, standard_error = 0;
 };
-Measured measure(const Scene& scene, Shot shot, unsigned seeds, const std::array<unsigned, 4>& rectangle);
+Measured measure(const Scene& scene, const Shot& shot, unsigned seeds,
+                 const std::array<unsigned, 4>& rectangle);
 Measured measure(const Scene& scene, const Shot& shot, unsigned seeds);
 
 /// Student's t quantile of eight seeds at 1e-5, two-sided: a family of fifty comparisons is wrong once in
