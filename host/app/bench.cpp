@@ -1,5 +1,6 @@
 // triad bench: measurements of speed and error. One file for each kind.
 #include "app/bench_error.h"
+#include "app/bench_features.h"
 #include "app/command_line.h"
 
 namespace triad {
@@ -7,6 +8,7 @@ namespace triad {
 void add_bench(CLI::App& app, Exit& exit) {
     CLI::App* bench = app.add_subcommand("bench", "Measure speed and error");
     add_bench_error(*bench, exit);
+    add_bench_features(*bench, exit);
     for (CLI::App* kind : bench->get_subcommands(nullptr)) {
         add_common(*kind);
         kind->set_help_flag("-h,--help", "Show this help");

@@ -1,13 +1,11 @@
 #include "render/features.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace triad {
 namespace {
 
-/// The one list that ties members to option names.
-constexpr std::pair<const char*, bool Features::*> table[] = {
+constexpr FeatureOption table[] = {
     {"INSTANCES", &Features::instances},
     {"ALPHA_TEST", &Features::alpha_test},
     {"TEXTURES", &Features::textures},
@@ -29,6 +27,15 @@ bool textured(const Material& m) {
 }
 
 }  // namespace
+
+std::span<const FeatureOption> feature_options() { return table; }
+
+std::string FeatureOption::words() const {
+    std::string words = name;
+    std::transform(words.begin(), words.end(), words.begin(),
+                   [](char c) { return c == '_' ? ' ' : char(std::tolower(c)); });
+    return words;
+}
 
 Features features_of(const Scene& scene, const RenderSettings& settings, bool instances) {
     std::vector<bool> used(scene.materials.size());
@@ -62,19 +69,15 @@ Features features_of(const Scene& scene, const RenderSettings& settings, bool in
 
 Options options_of(const Features& features) {
     Options options;
-    for (auto [name, member] : table) options[std::string("TRIAD_") + name] = features.*member ? "1" : "0";
+    for (const FeatureOption& o : table)
+        options[std::string("TRIAD_") + o.name] = features.*o.member ? "1" : "0";
     return options;
 }
 
 std::vector<std::string> left_out(const Features& features) {
     std::vector<std::string> names;
-    for (auto [name, member] : table)
-        if (!(features.*member)) {
-            std::string words = name;
-            std::transform(words.begin(), words.end(), words.begin(),
-                           [](char c) { return c == '_' ? ' ' : char(std::tolower(c)); });
-            names.push_back(words);
-        }
+    for (const FeatureOption& o : table)
+        if (!(features.*o.member)) names.push_back(o.words());
     return names;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// "Model only what a scene needs": observable facts of a scene that become compile-time options of the
 /// kernels.
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,17 @@ struct Features {
 
 /// `instances` is what the packing decided, the rest is read off the scene.
 Features features_of(const Scene& scene, const RenderSettings& settings, bool instances);
+
+/// An option of kernels/features.h: TRIAD_ and its name.
+struct FeatureOption {
+    const char* name;
+    bool Features::*member;
+
+    std::string words() const;  ///< "alpha test"
+};
+
+/// Every member of Features once.
+std::span<const FeatureOption> feature_options();
 
 /// "-D TRIAD_...=0|1".
 Options options_of(const Features& features);
