@@ -153,8 +153,10 @@ class Bench {
     }
 };
 
-void write_bench(const ErrorBench& bench, const std::string& json, const std::string& csv) {
-    if (!json.empty()) write_report(json, "bench-error", &bench.device, rows_of(bench), details_of(bench));
+void write_bench(const ErrorBench& bench, const std::vector<SettingScore>& scores, const std::string& json,
+                 const std::string& csv) {
+    if (!json.empty())
+        write_report(json, "bench-error", &bench.device, rows_of(bench), details_of(bench, scores));
     if (csv == "-")
         std::fputs(csv_of(bench.runs).c_str(), stdout);
     else if (!csv.empty())
@@ -182,13 +184,15 @@ Exit run_bench_error(const BenchErrorOptions& o) {
         if (!path.empty()) check_writable(path);
     if (!o.folder.empty()) fs::create_directories(o.folder);
     const ErrorBench bench = measure_errors(o);
-    if (o.json != "-" && o.csv != "-") std::fputs(table_of(bench).c_str(), stdout);
+    const std::vector<SettingScore> scores =
+        o.baselines.empty() ? std::vector<SettingScore>{} : score_settings(bench, o.baselines);
+    if (o.json != "-" && o.csv != "-") std::fputs((table_of(bench) + table_of(scores)).c_str(), stdout);
     if (!o.folder.empty()) {
         const fs::path folder = o.folder;
-        write_bench(bench, folder / "report.json", folder / "runs.csv");
-        write_error_report(folder, bench, {});
+        write_bench(bench, scores, folder / "report.json", folder / "runs.csv");
+        write_error_report(folder, bench, {o.title, command_words(), date_words(), scores});
     }
-    write_bench(bench, o.json, o.csv);
+    write_bench(bench, scores, o.json, o.csv);
     std::string wrong, worse;
     for (const ErrorCurve& c : bench.curves)
         if (!c.right) wrong += (wrong.empty() ? "" : "; ") + c.scene + ", " + c.setting;
@@ -205,6 +209,44 @@ Exit run_bench_error(const BenchErrorOptions& o) {
     return Exit::interrupted;
 }
 
+void declare(CLI::App& command, BenchErrorOptions& o) {
+    command
+        .add_option(
+            "--setting", o.settings,
+            "\"NAME: OPTIONS\": options of triad render to compare; several allowed, the first is the "
+            "one that times are compared with")
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
+    command
+        .add_option("--compare", o.compare,
+                    "Like roulette=0.5,1: every setting with each of these values; several allowed")
+        ->allow_extra_args(false)
+        ->type_name("OPTION=V,V...");
+    command.add_option("--options", o.common, "Options of triad render for every run")->type_name("TEXT");
+    command.add_option("--repetitions", o.repetitions, "Runs of each setting, with a seed each (default 5)")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    command.add_option("--seed", o.seed, "Of the first repetition; the others count on (default 1)")
+        ->check(CLI::Range(0, 1 << 30))
+        ->type_name("N");
+    command
+        .add_option("--against", o.against, "runs.csv of an earlier bench: say what became better or worse")
+        ->check(CLI::ExistingFile)
+        ->type_name("CSV");
+    command.add_flag("--fail-if-worse", o.fail_if_worse, "Exit 7 when something is worse than --against");
+    command
+        .add_option("-o,--output", o.folder, "Folder for report.html, its plots, report.json and runs.csv")
+        ->type_name("FOLDER");
+    command.add_option("--csv", o.csv, "Write the runs as CSV (-: standard output)")->type_name("FILE");
+    command.add_option("--json", o.json, "Write curves as JSON (-: standard output)")->type_name("FILE");
+    command.add_option("--kernels", o.kernels, "Read kernel source from here instead of the copy inside")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+    command.add_option("--progress", o.progress, "Of references: auto, bar, lines, json or none")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+        ->type_name("STYLE");
+}
+
 void add_bench_error(CLI::App& bench, Exit& exit) {
     auto o = std::make_shared<BenchErrorOptions>();
     CLI::App* command = bench.add_subcommand(
@@ -214,19 +256,6 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
             "SCENES", o->scenes,
             "FILE, or \"NAME: FILE OPTIONS\" with options of triad render (default: the built-in scene)")
         ->type_name("");
-    command
-        ->add_option(
-            "--setting", o->settings,
-            "\"NAME: OPTIONS\": options of triad render to compare; several allowed, the first is the "
-            "one that times are compared with")
-        ->allow_extra_args(false)
-        ->type_name("TEXT");
-    command
-        ->add_option("--compare", o->compare,
-                     "Like roulette=0.5,1: every setting with each of these values; several allowed")
-        ->allow_extra_args(false)
-        ->type_name("OPTION=V,V...");
-    command->add_option("--options", o->common, "Options of triad render for every run")->type_name("TEXT");
     command->add_option("--size", o->size, "Of the pictures, unless a scene says otherwise (default 256x256)")
         ->type_name("WxH");
     command->add_option("--spp", o->spp, "Samples per pixel of the last budget: 1, 2, 4 ... N (default 64)")
@@ -235,12 +264,6 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
     command->add_option("--time", o->time, "Begin no budget that would make a run longer than this")
         ->check(CLI::PositiveNumber)
         ->type_name("S");
-    command->add_option("--repetitions", o->repetitions, "Runs of each setting, with a seed each (default 5)")
-        ->check(CLI::Range(1, 10000))
-        ->type_name("N");
-    command->add_option("--seed", o->seed, "Of the first repetition; the others count on (default 1)")
-        ->check(CLI::Range(0, 1 << 30))
-        ->type_name("N");
     command
         ->add_option("--reference-spp", o->reference_spp,
                      "Samples per pixel of the references at least (default 8 times --spp, 1024 at least)")
@@ -250,22 +273,7 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
         "--own-references", o->own_references,
         "A reference for every setting, instead of the first setting's for all: where they are not "
         "meant to show one picture");
-    command
-        ->add_option("--against", o->against, "runs.csv of an earlier bench: say what became better or worse")
-        ->check(CLI::ExistingFile)
-        ->type_name("CSV");
-    command->add_flag("--fail-if-worse", o->fail_if_worse, "Exit 7 when something is worse than --against");
-    command
-        ->add_option("-o,--output", o->folder, "Folder for report.html, its plots, report.json and runs.csv")
-        ->type_name("FOLDER");
-    command->add_option("--csv", o->csv, "Write the runs as CSV (-: standard output)")->type_name("FILE");
-    command->add_option("--json", o->json, "Write curves as JSON (-: standard output)")->type_name("FILE");
-    command->add_option("--kernels", o->kernels, "Read kernel source from here instead of the copy inside")
-        ->check(CLI::ExistingDirectory)
-        ->type_name("DIR");
-    command->add_option("--progress", o->progress, "Of references: auto, bar, lines, json or none")
-        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
-        ->type_name("STYLE");
+    declare(*command, *o);
     command->callback([o, &exit] { exit = run_bench_error(*o); });
 }
 

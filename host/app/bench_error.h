@@ -1,6 +1,7 @@
 #pragma once
 /// triad bench error: scenes x settings x budgets x repetitions against a reference (docs/bench.md).
 #include <CLI/CLI.hpp>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,14 @@ struct BenchErrorOptions {
     bool fail_if_worse = false;
     std::string folder, csv, json, kernels;
     std::string progress = "auto";
+    std::string title = "Error against time";  ///< of the report
+    std::map<std::string, double>
+        baselines;  ///< by scene; with them settings are scored (measure/error_score.h)
 };
+
+/// Declares what every error bench understands: settings, repetitions, outputs. `options` must outlive the
+/// parsing.
+void declare(CLI::App& command, BenchErrorOptions& options);
 
 /// Runs, prints the table and writes what was asked for. Throws Error(comparison) after all that when a
 /// picture is wrong.

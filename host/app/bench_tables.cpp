@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/error_words.h"
+
 namespace triad {
 namespace {
 
@@ -79,6 +81,14 @@ std::string table_of(const ErrorBench& bench) {
     return text + "\n" + aligned(lines);
 }
 
+std::string table_of(const std::vector<SettingScore>& scores) {
+    std::string text = scores.empty() ? "" : "\n";
+    for (const SettingScore& score : scores)
+        text +=
+            "Score" + (scores.size() > 1 ? " of " + score.setting : "") + ": " + score_words(score) + "\n";
+    return text;
+}
+
 Json rows_of(const ErrorBench& bench) {
     Json rows = Json::array();
     for (const ErrorCurve& c : bench.curves)
@@ -98,7 +108,7 @@ Json rows_of(const ErrorBench& bench) {
     return rows;
 }
 
-Json details_of(const ErrorBench& bench) {
+Json details_of(const ErrorBench& bench, const std::vector<SettingScore>& scores) {
     Json curves = Json::array(), scenes = Json::array(), settings = Json::array(), changes = Json::array();
     for (const ErrorCurve& c : bench.curves)
         curves.push_back({{"scene", c.scene},
@@ -128,13 +138,20 @@ Json details_of(const ErrorBench& bench) {
                            {"time_ratio", to_json(c.time_ratio)},
                            {"error_ratio", to_json(c.error_ratio)},
                            {"p", c.p}});
+    Json scored = Json::array();
+    for (const SettingScore& s : scores)
+        scored.push_back({{"setting", s.setting},
+                          {"score", to_json(s.score)},
+                          {"void", s.is_void},
+                          {"why_none", s.why_none}});
     return {{"repetitions", bench.repetitions},
             {"complete", !bench.interrupted},
             {"right", bench.right()},
             {"curves", curves},
             {"scenes", scenes},
             {"settings", settings},
-            {"changes", changes}};
+            {"changes", changes},
+            {"scores", scored}};
 }
 
 }  // namespace triad

@@ -40,21 +40,23 @@ std::string line_style(std::size_t setting) {
 
 /// Every plot is one page: colours of text and axes follow the reader's choice of light or dark.
 std::string head(const std::string& title, double height) {
-    return format("set terminal svg size 560,%d dynamic font 'sans-serif,15' noenhanced\n", int(height)) +
+    return format("set terminal svg size 480,%d dynamic font 'sans-serif,15' noenhanced\n", int(height)) +
            "set encoding utf8\nset title " + gnuplot_quoted(title) +
            "\nset border lc rgb 'black'\nset grid lc rgb '#888888' lw 0.5 dt 1\nset key font ',14'\n";
 }
 
+/// CSS that shows what has one colour as another.
+std::string recoloured(const std::string& from, const std::string& to) {
+    std::string css;
+    for (const std::string what : {"stroke", "fill", "color"})
+        css += " [" + what + "=\"" + from + "\"]{" + what + ":" + to + "}";
+    return css;
+}
+
 std::string restyled(std::string svg) {
-    std::string style =
-        "<style>@media (prefers-color-scheme: dark) {[stroke=\"black\"]{stroke:#d6dae0} "
-        "[fill=\"black\"]{fill:#d6dae0} "
-        "[color=\"black\"]{color:#d6dae0}";
-    for (const Pen& pen : pens) {
-        const std::string is = std::string("=\"") + pen.light + "\"]", to = pen.dark;
-        style += " [stroke" + is + "{stroke:" + to + "} [fill" + is + "{fill:" + to + "} [color" + is +
-                 "{color:" + to + "}";
-    }
+    std::string style = "<style>@media (prefers-color-scheme: dark) {";
+    for (const char* ink : {"black", "rgb(  0,   0,   0)", "rgb(0,0,0)"}) style += recoloured(ink, "#d6dae0");
+    for (const Pen& pen : pens) style += recoloured(pen.light, pen.dark);
     style += "}</style>";
     const auto end = svg.find("</desc>");
     if (end != std::string::npos) svg.insert(end + 7, "\n" + style);
@@ -119,8 +121,9 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
     }
     if (x.empty() || y.empty()) return "";
     std::string script = head(scene + (on_time ? ": error against time" : ": error against samples"),
-                              380 + 22 * double((curves.size() + 1) / 2));
-    script += on_time ? "set xlabel 'seconds of rendering'\n" : "set xlabel 'samples per pixel'\n";
+                              350 + 22 * double((curves.size() + 1) / 2));
+    script += on_time ? "set xlabel 'seconds of rendering' offset 0,0.7\n"
+                      : "set xlabel 'samples per pixel' offset 0,0.7\n";
     script +=
         "set ylabel 'relative error (square root of relMSE)'\nset key outside below maxcols 2\nset format xy "
         "'%g'\n";
@@ -175,7 +178,8 @@ std::string efficiency_plot_script(const ErrorBench& bench) {
     std::string script = head("Efficiency: 1 / (MSE x seconds), longer is better",
                               130 + 22 * double((settings + 1) / 2) + 24 * rows);
     script +=
-        "set xlabel '1 / (MSE x seconds)'\nset logscale x 10\nset format x '%g'\nunset grid\nset grid xtics "
+        "set xlabel '1 / (MSE x seconds)' offset 0,0.7\nset logscale x 10\nset format x '%g'\nunset "
+        "grid\nset grid xtics "
         "lc rgb '#888888' lw 0.5 dt 1\n";
     script += "set key outside below maxcols 2\nset ytics (" + ticks + ") scale 0\n";
     script +=
@@ -186,14 +190,14 @@ std::string efficiency_plot_script(const ErrorBench& bench) {
         if (data[j].empty()) continue;
         const std::string name = format("$bars%zu", j);
         if (script.back() != ' ') script += ", ";
-        script +=
-            name +
-            format(
-                " using (%.9g):2:(%.9g):1:($2-0.4):($2+0.4) with boxxyerror fs %s border lc rgb '%s' title ",
-                left, left, j % 2 ? format("pattern %u", unsigned(3 + j) % 8).c_str() : "solid 0.75",
-                pen_of(j).colour) +
-            gnuplot_quoted(bench.settings[j].name) + ", " + name +
-            " using 1:2:3:4 with xerrorbars lc rgb 'black' lw 1 pt 0 notitle";
+        script += name +
+                  format(
+                      " using (%.9g):2:(%.9g):1:($2-0.4):($2+0.4) with boxxyerror fs %s border lc rgb '%s' "
+                      "lc rgb '%s' title ",
+                      left, left, j % 2 ? format("pattern %u", unsigned(3 + j) % 8).c_str() : "solid 0.75",
+                      pen_of(j).colour, pen_of(j).colour) +
+                  gnuplot_quoted(bench.settings[j].name) + ", " + name +
+                  " using 1:2:3:4 with xerrorbars lc rgb 'black' lw 1 pt 0 notitle";
         script += j + 1 < settings ? ", " : "\n";
     }
     return script;

@@ -23,6 +23,8 @@ std::string tone_class(Verdict::Tone tone) {
 
 std::string number(double value) { return html_escape(digits3(value)); }
 
+std::string count(double value) { return html_escape(count_words(value)); }
+
 /// A cell with its column's name, which a phone shows beside it.
 std::string cell(const char* label, const std::string& html, const std::string& below = "") {
     return std::string("<td class=\"n\" data-label=\"") + label + "\"><span class=\"v\">" + html + "</span>" +
@@ -51,17 +53,18 @@ const ErrorCurve& first_of(const ErrorBench& bench, const std::string& scene) {
 }
 
 std::string head_html(const ErrorBench& bench, const ErrorReportHead& head) {
-    std::string html =
-        "<h1>" + html_escape(head.title.empty() ? "Error against time" : head.title) + "</h1>\n";
-    for (const SettingScore& score : head.scores)
-        html += "<p class=\"score\">Score" +
-                (bench.settings.size() > 1 ? " of " + html_escape(score.setting) : "") + ": <b" +
-                (score.is_void ? " class=\"bad\">" : ">") +
-                (score.score ? number(score.score->value) + "</b> <span class=\"soft\">(95 % interval " +
-                                   html_escape(interval_words(*score.score)) +
-                                   "; 100 is the published baseline)</span>"
-                             : html_escape(score_words(score)) + "</b>") +
-                "</p>\n";
+    std::string html = "<h1>" + html_escape(head.title) + "</h1>\n";
+    for (const SettingScore& score : head.scores) {
+        const std::string of = bench.settings.size() > 1 ? " of " + html_escape(score.setting) : "";
+        html += "<p class=\"score\">Score" + of + ": ";
+        if (score.score)
+            html += "<b>" + number(score.score->value) + "</b> <span class=\"soft\">(95 % interval " +
+                    html_escape(interval_words(*score.score)) +
+                    "; 100 is the published baseline)</span></p>\n";
+        else
+            html += std::string("<b class=\"bad\">") + (score.is_void ? "void" : "none") + "</b> <span>" +
+                    html_escape(score.why_none) + "</span></p>\n";
+    }
     if (bench.interrupted)
         html += "<p class=\"bad\">The run was stopped early: this is what it had measured until then.</p>\n";
     html += "<dl>";
@@ -91,11 +94,11 @@ std::string summary_html(const ErrorBench& bench) {
         const ErrorPoint& last = curve.points.back();
         html += "<tr><th data-label=\"Scene\">" + html_escape(curve.scene) +
                 "</th><td data-label=\"Setting\"><span class=\"v\">" + html_escape(curve.setting) +
-                "</span></td>" + cell("Samples per pixel", number(last.spp)) +
+                "</span></td>" + cell("Samples per pixel", count(last.spp)) +
                 cell("Time (s)", number(last.seconds)) +
                 cell("relMSE", number(last.relmse.value), html_escape(interval_words(last.relmse))) +
                 cell("Trimmed relMSE", number(last.relmse_trimmed)) + cell("FLIP", number(last.flip)) +
-                cell("Fireflies", number(last.fireflies),
+                cell("Fireflies", count(last.fireflies),
                      last.nan ? html_escape(std::to_string(last.nan) + " samples not finite") : "") +
                 (curve.slope
                      ? cell("Slope", html_escape(slope_words(curve).substr(0, slope_words(curve).find(' '))),
@@ -160,7 +163,7 @@ std::string scene_html(const ErrorBench& bench, const ErrorScene& scene, const E
         "<h2>" + html_escape(scene.name) + "</h2>\n<p class=\"soft\">" +
         (scene.options.empty() ? "The built-in scene" : "<code>" + html_escape(scene.options) + "</code>") +
         ", " + std::to_string(scene.reference.width) + " x " + std::to_string(scene.reference.height) +
-        " pixels. The reference has " + number(scene.reference_spp) +
+        " pixels. The reference has " + count(scene.reference_spp) +
         " samples per pixel; its own relMSE is " + number(scene.reference_relmse) + ", and it " +
         (scene.reference_seconds > 0 ? "took " + number(scene.reference_seconds) + " s of this run."
                                      : "was kept from before.") +
@@ -170,7 +173,7 @@ std::string scene_html(const ErrorBench& bench, const ErrorScene& scene, const E
     html +=
         "<div class=\"pictures\">\n" +
         figure(data_uri("image/png", png_of(scene.reference_display)), "Reference picture of " + scene.name,
-               "<b>Reference</b>, " + number(scene.reference_spp) + " samples per pixel");
+               "<b>Reference</b>, " + count(scene.reference_spp) + " samples per pixel");
     std::vector<const std::vector<float>*> maps;
     for (const ErrorCurve& curve : bench.curves)
         if (curve.scene == scene.name) maps.push_back(&curve.rel_error);
@@ -182,7 +185,7 @@ std::string scene_html(const ErrorBench& bench, const ErrorScene& scene, const E
         const ErrorPoint& last = curve.points.back();
         html += figure(data_uri("image/png", png_of(curve.display)),
                        "Picture of " + scene.name + " with " + curve.setting,
-                       "<b>" + name + "</b>, " + number(last.spp) + " samples per pixel in " +
+                       "<b>" + name + "</b>, " + count(last.spp) + " samples per pixel in " +
                            number(last.seconds) + " s");
         if (!curve.rel_error.empty()) {
             const ColourScale scale{-limit, limit, true};
@@ -215,10 +218,9 @@ std::vector<std::filesystem::path> write_error_report(const std::filesystem::pat
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-        html_escape(head.title.empty() ? "Error against time" : head.title) +
-        "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" + error_report_style +
-        "</style></head><body>\n" + head_html(bench, head) + summary_html(bench) + how_to_read +
-        changes_html(bench);
+        html_escape(head.title) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" +
+        error_report_style + "</style></head><body>\n" + head_html(bench, head) + summary_html(bench) +
+        how_to_read + changes_html(bench);
     if (!plots.missing.empty()) html += "<p class=\"bad\">" + html_escape(plots.missing) + "</p>\n";
     const std::string efficiency = plot_html(plots, "");
     if (!efficiency.empty()) html += "<h2>Efficiency</h2>\n<div class=\"wide\">" + efficiency + "</div>\n";

@@ -10,7 +10,7 @@ inline constexpr char error_report_style[] = R"css(
   :root { --ink: #e4e7ea; --soft: #a3abb4; --page: #14171b; --card: #1d2127; --line: #363c44; --good: #3fd0a3; --bad: #ff9a5c; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1rem; max-width: 76rem; background: var(--page); color: var(--ink);
-  font: 16px/1.5 system-ui, -apple-system, "Segoe UI", "Noto Sans", sans-serif; overflow-wrap: anywhere; }
+  font: 16px/1.5 system-ui, -apple-system, "Segoe UI", "Noto Sans", sans-serif; overflow-wrap: break-word; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin: .5rem 0; }
 h2 { font-size: 1.3rem; margin: 2.5rem 0 .5rem; padding-top: 1rem; border-top: 1px solid var(--line); }
 h3 { font-size: 1.05rem; margin: 1.5rem 0 .5rem; }
@@ -20,12 +20,13 @@ code { font: .9em ui-monospace, "DejaVu Sans Mono", monospace; background: var(-
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .1rem 1rem; margin: .5rem 0; }
 dt { color: var(--soft); } dd { margin: 0; }
 .score { font-size: 1.25rem; }
-.score b { font-size: 2rem; }
-table { border-collapse: collapse; width: 100%; margin: .75rem 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
+.score b { font-size: 2rem; } .score span { font-size: 1rem; }
+table { overflow-wrap: anywhere; border-collapse: collapse; width: 100%; margin: .75rem 0; font-size: .92rem; font-variant-numeric: tabular-nums; }
 th, td { text-align: left; padding: .4rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; }
 tbody th { color: var(--ink); }
-td.n { white-space: nowrap; }
+td.n { white-space: nowrap; } thead th { overflow-wrap: normal; }
+tbody th, tbody th + td { min-width: 7.5rem; }
 td small { display: block; color: var(--soft); white-space: nowrap; }
 .good { color: var(--good); } .bad { color: var(--bad); font-weight: 600; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); gap: 1rem; }

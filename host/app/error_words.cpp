@@ -22,6 +22,12 @@ std::string digits3(double value) {
     return text;
 }
 
+std::string count_words(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, value == std::round(value) ? "%.0f" : "%.3g", value);
+    return text;
+}
+
 std::string interval_words(const Estimate& e) { return digits3(e.low) + " to " + digits3(e.high); }
 
 Verdict verdict_of(const ErrorCurve& curve, const ErrorCurve& first) {
@@ -62,7 +68,7 @@ std::string slope_words(const ErrorCurve& curve) {
 }
 
 std::string score_words(const SettingScore& score) {
-    if (!score.score) return (score.is_void ? "void. " : "none. ") + score.why_none;
+    if (!score.score) return (score.is_void ? "void: " : "none: ") + score.why_none;
     return digits3(score.score->value) + " (" + interval_words(*score.score) + ")";
 }
 

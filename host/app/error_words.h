@@ -10,6 +10,9 @@ namespace triad {
 /// Three digits: "0.00123", "1.23e-05", "45.6", "12300".
 std::string digits3(double value);
 
+/// A number of samples or pixels: "64", "2048", "12.5".
+std::string count_words(double value);
+
 /// "low to high".
 std::string interval_words(const Estimate& estimate);
 

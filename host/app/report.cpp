@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <ctime>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -75,9 +77,33 @@ void write_report(const std::string& path, const std::string& command, const Dev
 
 std::string machine_words() {
     const Json m = machine();
-    return m["processor"].get<std::string>() + ", " + std::to_string(m["cores"].get<unsigned>()) + " cores, " +
-           bytes_text(m["memory_bytes"].get<std::uint64_t>()) + ", " + m["system"].get<std::string>() + " (" +
-           m["architecture"].get<std::string>() + ")";
+    return m["processor"].get<std::string>() + ", " + std::to_string(m["cores"].get<unsigned>()) +
+           " cores, " + bytes_text(m["memory_bytes"].get<std::uint64_t>()) + ", " +
+           m["system"].get<std::string>() + " (" + m["architecture"].get<std::string>() + ")";
+}
+
+std::string command_words() {
+    std::ifstream file("/proc/self/cmdline");
+    std::string words;
+    for (std::string word; std::getline(file, word, '\0');) {
+        if (words.empty()) word = std::filesystem::path(word).filename().string();
+        const bool plain =
+            !word.empty() && word.find_first_of(" '\"\\$`*?[](){}<>|&;#~") == std::string::npos;
+        if (!plain)  // in single quotes, where only those themselves mean something
+            for (std::size_t at = 0; (at = word.find('\'', at)) != std::string::npos; at += 4)
+                word.replace(at, 1, "'\\''");
+        words += (words.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
+    }
+    return words;
+}
+
+std::string date_words() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &utc);
+    return text;
 }
 
 std::string bytes_text(std::uint64_t bytes) {

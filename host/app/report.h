@@ -20,6 +20,12 @@ void write_report(const std::string& path, const std::string& command, const Dev
 /// "AMD EPYC, 2 cores, 24.9 GB, Linux 6.1.0 (x86_64)".
 std::string machine_words();
 
+/// The command of this process as typed, quoted where a shell would need it; the program's folder left out.
+std::string command_words();
+
+/// "2026-11-22 05:10 UTC".
+std::string date_words();
+
 /// 1234567 -> "1.2 MB".
 std::string bytes_text(std::uint64_t bytes);
 
