@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "base/error.h"
@@ -7,19 +8,18 @@
 namespace triad {
 
 std::vector<std::uint32_t> integer_cdf(std::span<const double> weights) {
-    double total = 0;
-    for (double w : weights) total += w;
+    constexpr double whole = 4294967295.0;
     std::vector<std::uint32_t> cdf(weights.size() + 1, 0);
-    double sum = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double positive =
+        double(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+    double sum = 0, before = 0;
+    for (std::size_t i = 0; i < weights.size() && total > 0; ++i) {
         sum += weights[i];
-        cdf[i + 1] =
-            total > 0 ? static_cast<std::uint32_t>(std::min(sum / total, 1.0) * 4294967295.0 + 0.5) : 0u;
+        before += weights[i] > 0;
+        cdf[i + 1] = static_cast<std::uint32_t>(before + std::floor(sum / total * (whole - positive) + 0.5));
     }
-    // Rounding must not give an interval to trailing entries of weight zero.
-    std::size_t last = weights.size();
-    while (last > 1 && total > 0 && weights[last - 1] == 0.0) --last;
-    for (std::size_t i = last; i <= weights.size(); ++i) cdf[i] = 0xffffffffu;
+    cdf.back() = 0xffffffffu;
     return cdf;
 }
 

@@ -58,7 +58,8 @@ struct DeviceScene {
 DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings);
 
 /// Bounds of a CDF over weights in units of 2^-32: size + 1 values, first 0, last 2^32 - 1, rising; an entry
-/// of weight zero has an empty interval. All weights zero: every interval but the last is empty.
+/// of weight zero has an empty interval, any other one at least a unit. All weights zero: every interval but
+/// the last is empty.
 std::vector<std::uint32_t> integer_cdf(std::span<const double> weights);
 
 /// The layout of a tree over n intervals; throws Error(memory) when n is beyond 8^CDF_LEVELS.
