@@ -111,14 +111,16 @@ Json rows_of(const ErrorBench& bench) {
 Json details_of(const ErrorBench& bench, const std::vector<SettingScore>& scores) {
     Json curves = Json::array(), scenes = Json::array(), settings = Json::array(), changes = Json::array();
     for (const ErrorCurve& c : bench.curves)
-        curves.push_back({{"scene", c.scene},
-                          {"setting", c.setting},
-                          {"slope", to_json(c.slope)},
-                          {"efficiency", to_json(c.efficiency)},
-                          {"equal_relmse", c.time_ratio ? Json(c.equal_relmse) : Json()},
-                          {"time_ratio", to_json(c.time_ratio)},
-                          {"right", c.right},
-                          {"verdict", c.verdict}});
+        curves.push_back(
+            {{"scene", c.scene},
+             {"setting", c.setting},
+             {"slope", to_json(c.slope)},
+             {"efficiency", to_json(c.efficiency)},
+             {"relmse_efficiency", number(scene_efficiency(bench, c.scene, c.setting).value_or(NAN))},
+             {"equal_relmse", c.time_ratio ? Json(c.equal_relmse) : Json()},
+             {"time_ratio", to_json(c.time_ratio)},
+             {"right", c.right},
+             {"verdict", c.verdict}});
     for (const ErrorScene& s : bench.scenes)
         scenes.push_back({{"name", s.name},
                           {"options", s.options},

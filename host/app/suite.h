@@ -14,7 +14,7 @@ namespace triad {
 
 /// Samples per pixel of the last budget, and of the references.
 constexpr unsigned suite_spp = 64;
-constexpr unsigned suite_reference_spp = 2048;
+constexpr unsigned suite_reference_spp = 1024;
 
 /// The folder that holds suite/ and cornell/: beside the installed program (../share/triad/scenes), or the
 /// source's of a program in its build folder. Throws Error(scene) that names the places when there is none.

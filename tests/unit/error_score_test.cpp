@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace triad {
 namespace {
@@ -36,15 +37,42 @@ TEST(ErrorScore, IsTheGeometricMeanOverScenes) {
     EXPECT_NEAR(score_settings(bench, {{"a", 10 / 4.0}, {"b", 10}})[0].score->value, 200, 1e-9);
 }
 
-TEST(ErrorScore, IntervalHoldsTheValueAndGrowsWithNoise) {
-    const std::map<std::string, double> baselines = {{"a", 10}};
-    const auto narrow =
-        *score_settings(bench_of({"a"}, {0.099, 0.1, 0.1, 0.1, 0.101}, 1), baselines)[0].score;
-    const auto wide = *score_settings(bench_of({"a"}, {0.05, 0.08, 0.1, 0.15, 0.2}, 1), baselines)[0].score;
-    EXPECT_LE(narrow.low, narrow.value);
-    EXPECT_GE(narrow.high, narrow.value);
-    EXPECT_LT(narrow.high / narrow.low, 1.03);
-    EXPECT_GT(wide.high / wide.low, 1.5);
+TEST(ErrorScore, IntervalIsStudentsOfOneScene) {
+    // Logarithms of the efficiencies differ by -.1, 0 and .1: standard error .1 / sqrt(3), t of 2
+    // degrees 4.302653.
+    const ErrorBench bench = bench_of({"a"}, {0.1 * std::exp(-0.1), 0.1, 0.1 * std::exp(0.1)}, 1);
+    const Estimate score = *score_settings(bench, {{"a", 10}})[0].score;
+    EXPECT_NEAR(score.value, 100, 1e-9);
+    EXPECT_NEAR(std::log(score.high / 100), 4.302653 * 0.1 / std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR(std::log(score.low / 100), -4.302653 * 0.1 / std::sqrt(3.0), 1e-6);
+}
+
+TEST(ErrorScore, IntervalHoldsTheTruthNineteenTimesInTwenty) {
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> noise;
+    int held = 0;
+    constexpr int trials = 2000;
+    for (int trial = 0; trial < trials; ++trial) {
+        ErrorBench bench;
+        bench.settings = {{"default", "", "", ""}};
+        std::map<std::string, double> baselines;
+        for (const auto& [scene, spread] :
+             std::map<std::string, double>{{"a", 0.02}, {"b", 0.3}, {"c", 0.1}}) {
+            for (unsigned i = 0; i < 5; ++i)
+                bench.runs.push_back({scene, "default", i, i, 64, 1, 0, 0, std::exp(spread * noise(random))});
+            baselines[scene] = 1;
+        }
+        const Estimate score = *score_settings(bench, baselines)[0].score;
+        held += score.low <= 100 && 100 <= score.high;
+    }
+    EXPECT_NEAR(double(held) / trials, 0.95, 0.02);  // four standard errors
+}
+
+TEST(ErrorScore, OneRepetitionHasNoInterval) {
+    const Estimate score = *score_settings(bench_of({"a"}, {0.1}, 1), {{"a", 10}})[0].score;
+    EXPECT_NEAR(score.value, 100, 1e-9);
+    EXPECT_EQ(score.low, 0);
+    EXPECT_EQ(score.high, INFINITY);
 }
 
 TEST(ErrorScore, WrongPictureVoidsIt) {
