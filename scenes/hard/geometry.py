@@ -122,7 +122,8 @@ def closed_rooms():
 
 
 def terminator():
-    """Balls of 12 x 6 and 48 x 24 faces with smooth normals and a flat one, lit from the side."""
+    """Balls of 12 x 6 and 48 x 24 faces with smooth normals and a flat one, lit from above, a little
+    from behind."""
     s = Gltf()
     white = lambert(s, 0.8)
     place(s, shapes.sphere(1, 6, 12), white, translation=(-2.2, 0, 0))
@@ -130,7 +131,7 @@ def terminator():
     flat = shapes.sphere(1, 6, 12)
     del flat["normals"]
     place(s, flat, white, translation=(2.2, 0, 0))
-    sun(s, (-1, -0.2, -0.1), numpy.pi)
+    sun(s, (-0.5, -1, 0.1), numpy.pi)
     s.node(camera=s.orthographic(3.4, 1.2), matrix=look_at((0, 0, 5), (0, 0, 0)))
     return s
 

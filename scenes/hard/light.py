@@ -63,7 +63,7 @@ def sun_in_a_texel(path):
     sky = numpy.full((512, 1024, 3), 0.25)
     sky[::7] = 0
     sky[256:] = 0
-    sky[140, 700] = 1e7
+    sky[140, 900] = 1e7
     radiance_hdr(path + ".hdr", sky)
 
 

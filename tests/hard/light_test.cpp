@@ -89,7 +89,7 @@ TEST_F(Hard, a_sun_of_1e7_in_one_texel_lights_as_much_as_it_holds) {
     Scene scene = load("sun_in_a_texel");
     scene.environment = load_environment(generated("sun_in_a_texel") / "sun_in_a_texel.hdr");
     const double expected = 0.5 / pi * irradiance_of_floor(*scene.environment);
-    // The corner of the floor on the side of the sun: texel 700 of 1024 is 66 degrees from +x towards +z.
+    // The corner at +x, +z: texel 900 of 1024 is 137 degrees from +x towards +z, the shadow goes to +x, -z.
     const Shot shot{.width = 32, .height = 32, .spp = 256, .max_depth = 2};
     const Measured corner = measure(scene, shot, seeds, {28, 28, 4, 4});
     // The post, 1 high and 0.4 wide at 2.5, hides 0.2 % of the dim sky there, which gives 2 % of the light.
