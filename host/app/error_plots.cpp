@@ -71,6 +71,17 @@ struct Limits {
     bool empty() const { return !(high > 0); }
 };
 
+/// Labels at 1, 2, 5 x 10^k; over three decades at 10^k alone.
+std::string ticks(const char* axis, const Limits& limits) {
+    std::string list;
+    const bool all = limits.high / limits.low < 1000;
+    for (double decade = std::pow(10.0, std::floor(std::log10(limits.low)) - 1); decade <= limits.high * 10;
+         decade *= 10)
+        for (const double step : {1.0, 2.0, 5.0})
+            if (all || step == 1) list += (list.empty() ? "" : ", ") + format("%.9g", step * decade);
+    return std::string("set ") + axis + "tics (" + list + ")\n";
+}
+
 std::string slug(const std::string& name) {
     std::string out;
     for (const char c : name)
@@ -121,16 +132,16 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
     }
     if (x.empty() || y.empty()) return "";
     std::string script = head(scene + (on_time ? ": error against time" : ": error against samples"),
-                              350 + 22 * double((curves.size() + 1) / 2));
-    script += on_time ? "set xlabel 'seconds of rendering' offset 0,0.7\n"
-                      : "set xlabel 'samples per pixel' offset 0,0.7\n";
+                              360 + 19 * double(curves.size() + 1));
+    script += on_time ? "set xlabel 'seconds of rendering'\n" : "set xlabel 'samples per pixel'\n";
     script +=
-        "set ylabel 'relative error (square root of relMSE)'\nset key outside below maxcols 2\nset format xy "
+        "set ylabel 'relative error (square root of relMSE)'\nset key tmargin center\nset format "
+        "xy "
         "'%g'\n";
     script += on_time ? "set logscale xy 10\n" : "set logscale y 10\nset logscale x 2\n";
     script += format("set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", x.low / 1.25, x.high * 1.25,
                      y.low / 1.4, y.high * 1.3);
-    script += data + "plot ";
+    script += ticks("y", y) + (on_time ? ticks("x", x) : "") + data + "plot ";
     for (std::size_t i = 0; i < curves.size(); ++i)
         script += format(
             "$curve%zu using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '%s' "
@@ -175,13 +186,13 @@ std::string efficiency_plot_script(const ErrorBench& bench) {
     if (x.empty()) return "";
     const double rows = double(bench.scenes.size() * (settings + 1));
     const double left = std::pow(10.0, std::floor(std::log10(x.low) - 0.3));
-    std::string script = head("Efficiency: 1 / (MSE x seconds), longer is better",
-                              130 + 22 * double((settings + 1) / 2) + 24 * rows);
+    std::string script =
+        head("Efficiency: 1 / (MSE x seconds), longer is better", 120 + 19 * double(settings) + 24 * rows);
     script +=
-        "set xlabel '1 / (MSE x seconds)' offset 0,0.7\nset logscale x 10\nset format x '%g'\nunset "
+        "set xlabel '1 / (MSE x seconds)'\nset logscale x 10\nset format x '%g'\nunset "
         "grid\nset grid xtics "
         "lc rgb '#888888' lw 0.5 dt 1\n";
-    script += "set key outside below maxcols 2\nset ytics (" + ticks + ") scale 0\n";
+    script += "set key tmargin center\nset ytics (" + ticks + ") scale 0\n";
     script +=
         format("set xrange [%.9g:%.9g]\nset yrange [%.9g:1]\nset bars 0.4\n", left, x.high * 1.5, -rows + 1);
     for (std::size_t j = 0; j < settings; ++j) script += format("$bars%zu << EOD\n", j) + data[j] + "EOD\n";

@@ -37,9 +37,9 @@ std::string words_cell(const char* label, const Verdict& verdict) {
 }
 
 std::string figure(const std::string& source, const std::string& words, const std::string& caption,
-                   const std::string& more = "") {
-    return "<figure><img src=\"" + source + "\" alt=\"" + html_escape(words) + "\">" + more + "<figcaption>" +
-           caption + "</figcaption></figure>\n";
+                   const std::string& more = "", const char* place = "") {
+    return std::string("<figure") + place + "><img src=\"" + source + "\" alt=\"" + html_escape(words) +
+           "\">" + more + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
 std::string legend(const ColourScale& scale, const std::string& low, const std::string& high) {
@@ -183,10 +183,13 @@ std::string scene_html(const ErrorBench& bench, const ErrorScene& scene, const E
         if (curve.scene != scene.name || curve.points.empty()) continue;
         const std::string name = html_escape(curve.setting);
         const ErrorPoint& last = curve.points.back();
+        // Beside the reference, or below its first picture.
+        const bool first = &curve == &first_of(bench, scene.name);
         html += figure(data_uri("image/png", png_of(curve.display)),
                        "Picture of " + scene.name + " with " + curve.setting,
                        "<b>" + name + "</b>, " + count(last.spp) + " samples per pixel in " +
-                           number(last.seconds) + " s");
+                           number(last.seconds) + " s",
+                       "", first ? "" : " class=\"first\"");
         if (!curve.rel_error.empty()) {
             const ColourScale scale{-limit, limit, true};
             html +=

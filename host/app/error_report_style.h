@@ -29,13 +29,15 @@ td.n { white-space: nowrap; } thead th { overflow-wrap: normal; }
 tbody th, tbody th + td { min-width: 7.5rem; }
 td small { display: block; color: var(--soft); white-space: nowrap; }
 .good { color: var(--good); } .bad { color: var(--bad); font-weight: 600; }
-.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(20rem, 100%), 1fr)); gap: 1rem; }
+.pictures { display: grid; grid-template-columns: 1fr; gap: 1rem; margin: 1rem 0; }
+@media (min-width: 34rem) { .pictures { grid-template-columns: 1fr 1fr; } }
+@media (min-width: 64rem) { .pictures { grid-template-columns: repeat(4, 1fr); } .pictures .first { grid-column: 2; } }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(28rem, 100%), 1fr)); gap: 1rem; margin: 1rem 0; }
 figure { margin: 0; background: var(--card); border: 1px solid var(--line); border-radius: .4rem; padding: .5rem; }
 figure img { display: block; width: 100%; height: auto; border-radius: .2rem; }
 figcaption { padding: .4rem .1rem 0; font-size: .9rem; }
-.scale { display: flex; align-items: center; gap: .5rem; font-size: .8rem; color: var(--soft); margin-top: .3rem; white-space: nowrap; }
-.scale i { flex: 1; height: .7rem; border-radius: .2rem; border: 1px solid var(--line); }
+.scale { display: flex; flex-wrap: wrap; align-items: center; gap: 0 .5rem; font-size: .8rem; color: var(--soft); margin-top: .3rem; justify-content: space-between; }
+.scale i { order: -1; flex: 0 0 100%; height: .7rem; border-radius: .2rem; border: 1px solid var(--line); }
 .wide { max-width: 46rem; }
 details { margin: 1rem 0; } summary { cursor: pointer; font-weight: 600; }
 @media (max-width: 50rem) {
