@@ -4,15 +4,10 @@
 #include <cstdio>
 
 #include "app/error_words.h"
+#include "base/text.h"
 
 namespace triad {
 namespace {
-
-std::string format(const char* pattern, auto... values) {
-    char text[400];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 /// JSON has no infinity.
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(); }

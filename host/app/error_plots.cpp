@@ -7,6 +7,7 @@
 
 #include "app/child_process.h"
 #include "base/files.h"
+#include "base/text.h"
 
 namespace triad {
 namespace {
@@ -23,12 +24,6 @@ constexpr Pen pens[] = {
     {"rgb(230, 159,   0)", "#f0b429", "#e69f00"}, {"rgb( 86, 180, 233)", "#86cdf5", "#56b4e9"},
     {"rgb( 90,  90,  90)", "#b8b8b8", "#5a5a5a"}};
 constexpr int markers[] = {7, 5, 9, 11, 13, 6, 4};
-
-std::string format(const char* pattern, auto... values) {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 const Pen& pen_of(std::size_t setting) { return pens[setting % std::size(pens)]; }
 

@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "base/text.h"
 #include "kernels/types.h"
 
 namespace triad {
 namespace {
-
-std::string format(const char* pattern, auto... values) {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 Json rgb(const dvec3& v) { return {v.x, v.y, v.z}; }
 

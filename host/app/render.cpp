@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "base/parallel_for.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "kernels/types.h"
 #include "render/renderer.h"
 
@@ -22,12 +23,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::string format(const char* pattern, auto... values) {
-    char text[512];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 /// The planes of --aov, as EXR channels.
 std::vector<Channel> layers_of(const RenderOptions& o, Renderer& renderer, const Film& film) {

@@ -8,15 +8,10 @@
 #include <cstdio>
 
 #include "base/log.h"
+#include "base/text.h"
 
 namespace triad {
 namespace {
-
-std::string format(const char* pattern, auto... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, pattern, values...);
-    return text;
-}
 
 unsigned terminal_columns() {
     winsize size{};

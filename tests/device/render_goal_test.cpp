@@ -2,17 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "analytic/analytic_scene.h"
+#include "same_film.h"
 
 namespace triad {
 namespace {
-
-void expect_same_bytes(const Film& a, const Film& b, const std::string& what) {
-    EXPECT_EQ(a.sums, b.sums) << what;
-    EXPECT_EQ(a.half_sums, b.half_sums) << what;
-    EXPECT_EQ(a.samples, b.samples) << what;
-    EXPECT_EQ(a.ranges, b.ranges) << what;
-    EXPECT_EQ(a.counters, b.counters) << what;
-}
 
 Film render_to(Device& device, const RenderSettings& settings, const RenderGoal& goal) {
     Scene scene = analytic::varied_scene();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analytic/analytic_scene.h"
+#include "same_film.h"
 
 namespace triad {
 namespace {
@@ -16,14 +17,6 @@ using analytic::varied_scene;
 Film render(Device& device, const Scene& scene, const RenderSettings& settings,
             const std::vector<SampleRange>& ranges) {
     return picture_case::render(device, scene, settings, ranges);
-}
-
-void expect_same_bytes(const Film& a, const Film& b, const std::string& what) {
-    EXPECT_EQ(a.sums, b.sums) << what;
-    EXPECT_EQ(a.half_sums, b.half_sums) << what;
-    EXPECT_EQ(a.samples, b.samples) << what;
-    EXPECT_EQ(a.ranges, b.ranges) << what;
-    EXPECT_EQ(a.counters, b.counters) << what;
 }
 
 TEST(Renderer, same_bytes_on_one_thread) {

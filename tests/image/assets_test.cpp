@@ -1,7 +1,6 @@
 // Other people's models through the whole program: every file of these folders gives a picture, or says that
 // there is nothing to render. What the pictures show, and what looks wrong: docs/assets.md.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,7 @@
 #include <set>
 #include <string>
 
+#include "../program.h"
 #include "../unit/temporary_folder.h"
 #include "../unit/test_assets.h"
 #include "io/io.h"
@@ -20,22 +20,6 @@
 namespace fs = std::filesystem;
 
 namespace {
-
-struct Outcome {
-    int exit = -1;
-    std::string output;
-};
-
-Outcome run(const std::string& arguments) {
-    Outcome outcome;
-    FILE* pipe = ::popen(("'" TRIAD_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
-    std::array<char, 4096> buffer;
-    for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        outcome.output.append(buffer.data(), n);
-    const int status = ::pclose(pipe);
-    outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
-}
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
@@ -82,10 +66,10 @@ TEST(Assets, every_model_renders_or_has_nothing_to_render) {
         for (const fs::path& model : models_in(assets / part)) {
             SCOPED_TRACE(model.string());
             ++models;
-            const Outcome outcome = run("render " + quoted(model) + " -o " + quoted(folder / "picture.exr") +
-                                        " --json " + quoted(folder / "row.json") + " --env " +
-                                        quoted(assets / "env" / "venice_sunset_256.hdr") +
-                                        " --background transparent --size 64x64 --spp 4");
+            const Outcome outcome = run_triad(
+                "render " + quoted(model) + " -o " + quoted(folder / "picture.exr") + " --json " +
+                quoted(folder / "row.json") + " --env " + quoted(assets / "env" / "venice_sunset_256.hdr") +
+                " --background transparent --size 64x64 --spp 4");
             if (outcome.exit == 2 && outcome.output.find("nothing to render") != std::string::npos) {
                 empty.insert(model.stem().string());
                 continue;
