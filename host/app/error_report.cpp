@@ -1,7 +1,7 @@
 #include "app/error_report.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstdio>
 
 #include "app/error_pictures.h"
 #include "app/error_plots.h"
@@ -24,6 +24,12 @@ std::string tone_class(Verdict::Tone tone) {
 std::string number(double value) { return html_escape(digits3(value)); }
 
 std::string count(double value) { return html_escape(count_words(value)); }
+
+std::string hundredths(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", value);
+    return text;
+}
 
 /// A cell with its column's name, which a phone shows beside it.
 std::string cell(const char* label, const std::string& html, const std::string& below = "") {
@@ -100,12 +106,9 @@ std::string summary_html(const ErrorBench& bench) {
                 cell("Trimmed relMSE", number(last.relmse_trimmed)) + cell("FLIP", number(last.flip)) +
                 cell("Fireflies", count(last.fireflies),
                      last.nan ? html_escape(std::to_string(last.nan) + " samples not finite") : "") +
-                (curve.slope
-                     ? cell("Slope", html_escape(slope_words(curve).substr(0, slope_words(curve).find(' '))),
-                            html_escape(slope_words(curve).substr(
-                                slope_words(curve).find('(') + 1,
-                                slope_words(curve).size() - slope_words(curve).find('(') - 2)))
-                     : cell("Slope", "not known")) +
+                (curve.slope ? cell("Slope", hundredths(curve.slope->value),
+                                    hundredths(curve.slope->low) + " to " + hundredths(curve.slope->high))
+                             : cell("Slope", "not known")) +
                 words_cell("Verdict", verdict_of(curve, first_of(bench, curve.scene))) + "</tr>\n";
     }
     return html + "</tbody></table>\n";
@@ -113,7 +116,7 @@ std::string summary_html(const ErrorBench& bench) {
 
 constexpr char how_to_read[] =
     "<details><summary>How to read this</summary>\n"
-    "<p>Every number is the median over the repetitions at the last sample count; the range below it is its "
+    "<p>Numbers are medians over the repetitions at the last sample count; the range below one is its "
     "95 % interval. "
     "<b>relMSE</b> is the mean over pixels and channels of (x - r)<sup>2</sup> / (r<sup>2</sup> + 0.01), "
     "with the picture x and the reference r; "

@@ -59,14 +59,6 @@ Verdict verdict_of(const ErrorChange& change) {
     return {"The same within noise" + words, Verdict::Tone::plain};
 }
 
-std::string slope_words(const ErrorCurve& curve) {
-    if (!curve.slope) return "not known: fewer than two points are above the reference's own error";
-    char text[96];
-    std::snprintf(text, sizeof text, "%.2f (%.2f to %.2f)", curve.slope->value, curve.slope->low,
-                  curve.slope->high);
-    return text;
-}
-
 std::string score_words(const SettingScore& score) {
     if (!score.score) return (score.is_void ? "void: " : "none: ") + score.why_none;
     return digits3(score.score->value) + " (" + interval_words(*score.score) + ")";

@@ -24,10 +24,7 @@ struct Verdict {
 Verdict verdict_of(const ErrorCurve& curve, const ErrorCurve& first);
 Verdict verdict_of(const ErrorChange& change);
 
-/// "fell with samples^-0.50 (-0.52 to -0.48)", or why that is not known.
-std::string slope_words(const ErrorCurve& curve);
-
-/// "score 104 (98 to 111)", or why there is none.
+/// "104 (98.0 to 111)", or why there is none.
 std::string score_words(const SettingScore& score);
 
 }  // namespace triad
