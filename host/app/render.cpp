@@ -140,6 +140,11 @@ Exit run(RenderOptions o) {
     metadata["triad:driver"] = device.info().driver;
     metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", render_s);
+    metadata["triad:scene_name"] =
+        o.scene_path.empty() ? "built-in" : std::filesystem::path(o.scene_path).filename().string();
+    metadata["triad:machine"] = machine_words();
+    metadata["triad:compute_units"] = std::to_string(device.info().compute_units);
+    if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
     if (!o.film_path.empty()) save_film(o.film_path, film);
     write_outputs(o.outputs, device, film, o.style, layers_of(o, renderer, film), metadata);
     report_counters(film, o.max_depth);

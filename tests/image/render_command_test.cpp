@@ -144,8 +144,8 @@ TEST(RenderCommand, every_layer_is_there_and_means_what_it_says) {
                              "normal.Z", "position.X", "position.Y", "position.Z", "depth.Z", "samplecount.Y",
                              "variance.R", "variance.G", "variance.B", "error.Y"})
         ASSERT_NE(picture.find(name), nullptr) << name;
-    for (const char* name :
-         {"version", "spp", "relmse", "scene", "settings", "seed", "seconds", "device", "driver"})
+    for (const char* name : {"version", "spp", "relmse", "scene", "scene_name", "settings", "settings_text",
+                             "seed", "seconds", "rays", "device", "driver", "compute_units", "machine"})
         EXPECT_FALSE(picture.metadata.at("triad:" + std::string(name)).empty()) << name;
     EXPECT_EQ(picture.metadata.at("triad:seed"), "7");
     EXPECT_EQ(picture.metadata.at("triad:spp"), "6");
