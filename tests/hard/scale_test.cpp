@@ -10,7 +10,7 @@ namespace {
 
 constexpr Shot still_life{.width = 40, .height = 30, .spp = 4};
 
-/// Flattened and instanced (nothing is placed twice there, so lens and depth are what varies).
+/// Through a lens, so that its size and focus scale too.
 Film still(const std::string& name, double scale = 1) {
     const Scene scene = load(name);
     RenderSettings settings = settings_of(scene, still_life);

@@ -128,7 +128,8 @@ def scene(mi, name, path, view):
     node, matrix = cameras[camera]
     lens = glb.json["cameras"][node["camera"]]
     eye, forward, up = matrix[:3, 3], -matrix[:3, 2], matrix[:3, 1]
-    to_world = transform().look_at(origin=eye.tolist(), target=(eye + forward * max(1, np.abs(eye).max())).tolist(), up=up.tolist())
+    target = eye + forward * max(1, np.abs(eye).max())
+    to_world = transform().look_at(origin=eye.tolist(), target=target.tolist(), up=up.tolist())
     film = {"type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"}, "pixel_format": "rgb",
             "component_format": "float32"}
     if lens["type"] == "perspective":
@@ -208,7 +209,8 @@ def main():
     mi.set_variant(options.variant)
     os.makedirs(options.out, exist_ok=True)
     names = options.scenes or list(VIEWS)
-    subprocess.run([sys.executable, os.path.join(HERE, "../../scenes/hard/generate.py"), "--out", options.out, *names], check=True)
+    generator = os.path.join(HERE, "../../scenes/hard/generate.py")
+    subprocess.run([sys.executable, generator, "--out", options.out, *names], check=True)
     rows = []
     for name in names:
         path = os.path.join(options.out, name)
@@ -221,13 +223,14 @@ def main():
         error = np.abs(tiles(triad) - tiles(mitsuba)) / scale
         noise = [np.sqrt(np.mean((tiles(p[0] - p[1]) / 2 / scale) ** 2)) for p in (a, b)]
         rows.append({"scene": name, "mean_triad": triad.mean(), "mean_mitsuba": whole,
-                     "ratio": triad.mean() / whole if whole else None, "within_2_percent": float(np.mean(error.max(axis=2) <= 0.02)),
+                     "ratio": triad.mean() / whole if whole else None,
+                     "within_2_percent": float(np.mean(error.max(axis=2) <= 0.02)),
                      "median": float(np.median(error)), "largest": float(error.max()), "noise_triad": noise[0],
                      "noise_mitsuba": noise[1]})
         r = rows[-1]
-        print(f"{name:28} Triad {r['mean_triad']:.6g}  Mitsuba {r['mean_mitsuba']:.6g}  ratio {r['ratio'] or 0:.5f}  tiles within 2 % "
-              f"{100 * r['within_2_percent']:.1f}  largest {100 * r['largest']:.2f} %  noise {100 * noise[0]:.2f} % {100 * noise[1]:.2f} %",
-              flush=True)
+        print(f"{name:28} Triad {r['mean_triad']:.6g}  Mitsuba {r['mean_mitsuba']:.6g}  ratio {r['ratio'] or 0:.5f}  "
+              f"tiles within 2 % {100 * r['within_2_percent']:.1f}  largest {100 * r['largest']:.2f} %  "
+              f"noise {100 * noise[0]:.2f} % {100 * noise[1]:.2f} %", flush=True)
         for part, (x, y, w, h) in PARTS.get(name, {}).items():
             means = [p[y : y + h, x : x + w].mean() for p in (triad, mitsuba)]
             r.setdefault("parts", {})[part] = means
