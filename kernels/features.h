@@ -39,6 +39,9 @@
 #ifndef TRIAD_LENS /* the camera has an aperture */
 #define TRIAD_LENS 1
 #endif
+#ifndef TRIAD_INDEPENDENT_SAMPLES /* samples may be asked to be independent of each other instead of Sobol's */
+#define TRIAD_INDEPENDENT_SAMPLES 1
+#endif
 #ifndef TRIAD_BINS /* the film has more than one bin per pixel */
 #define TRIAD_BINS 1
 #endif

@@ -270,6 +270,8 @@ typedef struct Camera {
 } Camera;
 TRIAD_SIZE(Camera, 80);
 
+#define SAMPLER_SOBOL_BLOCKS 9u /* of random numbers, from Sobol's sequence; those beyond are hashed */
+
 /* Everything of one picture that does not change between launches. */
 typedef struct Frame {
     Camera camera;
@@ -284,7 +286,7 @@ typedef struct Frame {
     uint root;    /* node of the world's tree */
     CdfShape lights; /* the tree that lights are picked by */
     float roulette;  /* 1 / throughput below which roulette kills, in proportion */
-    uint unused;
+    uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
 } Frame;
 TRIAD_SIZE(Frame, 296);
 

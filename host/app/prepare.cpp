@@ -45,6 +45,7 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
     settings.seed = o.seed;
     settings.max_depth = o.max_depth;
     settings.roulette = o.roulette;
+    settings.independent = o.independent;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
     settings.environment_rotation = o.env_rotate * pi / 180;

@@ -58,6 +58,13 @@ void declare(CLI::App& command, RenderOptions& o) {
             "time; 1: most samples)")
         ->check(CLI::Range(0.01, 10.0))
         ->type_name("T");
+    add_parsed(command, "--sampler", "NAME",
+               "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
+               [&o](const std::string& v) {
+                   if (v != "sobol" && v != "independent")
+                       throw Error(Exit::usage, "--sampler " + v + ": sobol or independent.");
+                   o.independent = v == "independent";
+               });
     add_parsed(command, "--samples", "A:B", "Only this half-open range of sample indices, for triad merge",
                [&o](const std::string& v) { o.samples = parse_range("--samples", v); });
 

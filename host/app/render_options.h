@@ -28,6 +28,7 @@ struct RenderOptions {
     std::uint32_t seed = 0;
     unsigned max_depth = 0;
     double roulette = RenderSettings{}.roulette;
+    bool independent = false;  ///< samples, instead of Sobol's sequence
     unsigned bins_x = 1, bins_y = 1;
     std::string device;
     unsigned threads = 0;

@@ -12,10 +12,11 @@ namespace {
 
 const char* const source = R"(#include "common/random.h"
 __kernel void sample(__global uint2* out, uint pixel, uint pixel_step, uint index, uint index_step, uint high,
-                     uint stream, uint seed, uint set, uint set_step, uint count) {
+                     uint stream, uint seed, uint set, uint set_step, uint first_block, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
-    const Sampler s = sampler_make(pixel + i * pixel_step, index + i * index_step, high, stream, seed);
+    Sampler s = sampler_make(pixel + i * pixel_step, index + i * index_step, high, stream, seed);
+    s.first_block = first_block;
     out[i] = sampler_2d_bits(&s, set + i * set_step);
 }
 __kernel void sobol(__global uint2* out, uint count) {
@@ -34,7 +35,7 @@ using Numbers = std::vector<Pair>;
 /// Which names to draw: a start and a step along pixel, sample index or set.
 struct Names {
     std::uint32_t pixel = 7, pixel_step = 0, index = 0, index_step = 0, high = 0, stream = 0, seed = 1,
-                  set = 0, set_step = 0;
+                  set = 0, set_step = 0, first_block = 0;
 };
 
 Numbers draw(Check& check, const Names& n, std::size_t count) {
@@ -48,7 +49,8 @@ Numbers draw(Check& check, const Names& n, std::size_t count) {
                                 .add(n.stream)
                                 .add(n.seed)
                                 .add(n.set)
-                                .add(n.set_step),
+                                .add(n.set_step)
+                                .add(n.first_block),
                             count);
 }
 
@@ -105,6 +107,12 @@ void sets_are_independent(Check& check) {
 
 void hashed_samples_are_independent(Check& check) {
     expect_independent(check, draw(check, {.index_step = 1, .set = 36}, check.count(1 << 20)), "samples");
+    // --sampler independent: the sets that are Sobol's otherwise, which would be far too regular
+    for (const std::uint32_t set : {0u, 5u, 35u})
+        expect_independent(check,
+                           draw(check, {.index_step = 1, .set = set, .first_block = SAMPLER_SOBOL_BLOCKS},
+                                check.count(1 << 19)),
+                           "independent samples of set " + std::to_string(set));
 }
 
 // Sobol points of one set are negatively correlated by design; between sets of one pixel, over its samples,

@@ -18,6 +18,7 @@ constexpr FeatureOption table[] = {
     {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
     {"ENVIRONMENT_MAP", &Features::environment_map},
     {"LENS", &Features::lens},
+    {"INDEPENDENT_SAMPLES", &Features::independent_samples},
     {"BINS", &Features::bins},
 };
 
@@ -63,6 +64,7 @@ Features features_of(const Scene& scene, const RenderSettings& settings, bool in
     f.punctual_lights = !scene.lights.empty();
     f.environment_map = scene.environment.has_value();
     f.lens = settings.view.lens_radius > 0;
+    f.independent_samples = settings.independent;
     f.bins = settings.bins_x * settings.bins_y > 1;
     return f;
 }

@@ -52,6 +52,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.light_count = static_cast<std::uint32_t>(packed.lights.size());
     frame.quanta = std::ldexp(1.0f, packed.quanta_log2);
     frame.root = packed.root;
+    frame.first_block = settings.independent ? SAMPLER_SOBOL_BLOCKS : 0;
     frame.lights = packed.light_shape;
     return frame;
 }

@@ -26,6 +26,7 @@ std::string text_of(const RenderSettings& s) {
     add("seed", {double(s.seed)});
     add("max_depth", {double(s.max_depth)});
     add("roulette", {s.roulette});
+    add("independent", {double(s.independent)});
     add("transparent", {double(s.transparent)});
     add("eye", {v.eye.x, v.eye.y, v.eye.z});
     add("right", {v.right.x, v.right.y, v.right.z});

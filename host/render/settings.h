@@ -19,6 +19,8 @@ struct RenderSettings {
     /// value biases. Measured (docs/performance.md): 0.5 has the least error for its time, 1 the most samples
     /// for it; the default lies between.
     double roulette = 0.8;
+    /// Random numbers hashed for every sample alone, instead of Sobol's sequence: more error, but known laws.
+    bool independent = false;
     bool transparent =
         false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
     View view;

@@ -15,7 +15,6 @@
 
 #include "common/language.h"
 
-#define SAMPLER_SOBOL_BLOCKS 9u
 #define SAMPLER_SOBOL_SETS (4u * SAMPLER_SOBOL_BLOCKS)
 
 /* 24 bits, in [0, 1 - 2^-24]: float(u) * 2^-32 would reach 1. */
@@ -75,7 +74,8 @@ TRIAD_FUNCTION uint4 random_sobol1_reversed(uint4 index) {
 
 typedef struct Sampler {
     uint index_reversed;
-    uint key0, key1; /* of pixel, stream, seed and the upper half of the index */
+    uint key0, key1;  /* of pixel, stream, seed and the upper half of the index */
+    uint first_block; /* added to blocks that are asked for; SAMPLER_SOBOL_BLOCKS: all are hashed */
 } Sampler;
 
 /* pixel: index in the full picture. index, index_high: the 64-bit number of the sample within its stream;
@@ -87,6 +87,7 @@ TRIAD_FUNCTION Sampler sampler_make(uint pixel, uint index, uint index_high, uin
     s.index_reversed = random_reverse_bits(index);
     s.key0 = key.x;
     s.key1 = key.y;
+    s.first_block = 0u;
     return s;
 }
 
@@ -97,8 +98,12 @@ typedef struct SamplerBlock {
 
 TRIAD_FUNCTION SamplerBlock sampler_block(const Sampler* s, uint block) {
     SamplerBlock b;
+#if TRIAD_INDEPENDENT_SAMPLES
+    block += s->first_block;
+#endif
     if (block >= SAMPLER_SOBOL_BLOCKS) {
-        /* pcg4d carries upwards only: the low bits of a reversed index would not see its neighbour's high ones */
+        /* pcg4d carries upwards only: the low bits of a reversed index would not see its neighbour's high
+         * ones */
         const uint index = random_mix(s->index_reversed ^ s->key1);
         b.x = random_pcg4d((uint4)(s->key0, index, 2u * block, s->key1));
         b.y = random_pcg4d((uint4)(s->key0, index, 2u * block + 1u, s->key1));

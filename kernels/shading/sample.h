@@ -39,10 +39,12 @@ TRIAD_FUNCTION SampleName sample_name(const Frame* frame, uint pixel, ulong s) {
     name.half_index = (uint)(round & 1ul);
     const ulong index = (round >> 1) * bins + turn;
     name.path = sampler_make(pixel, (uint)index, (uint)(index >> 32), name.half_index, frame->seed);
+    name.path.first_block = frame->first_block;
 #if TRIAD_BINS
     if (bins > 1u) {
         name.position = sampler_make(pixel, (uint)(round >> 1), (uint)(round >> 33),
                                      2u + 2u * name.bin + name.half_index, frame->seed);
+        name.position.first_block = frame->first_block;
         return name;
     }
 #endif
