@@ -6,6 +6,7 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/measurements.h"
+#include "kernels/types.h"
 
 namespace triad {
 namespace {

@@ -21,6 +21,15 @@ double quantile(std::span<const double> sorted, double q) {
     return sorted[std::min(sorted.size() - 1, std::size_t(q * double(sorted.size())))];
 }
 
+/// Moves the values.
+double median_of(std::vector<double>& v) {
+    if (v.empty()) throw std::invalid_argument("no values have no median");
+    const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
+    std::nth_element(v.begin(), middle, v.end());
+    if (v.size() % 2 == 1) return *middle;
+    return 0.5 * (*middle + *std::max_element(v.begin(), middle));
+}
+
 std::vector<double> logarithms(std::span<const double> values) {
     std::vector<double> logs(values.size());
     std::transform(values.begin(), values.end(), logs.begin(), [](double v) { return std::log(v); });
@@ -30,12 +39,8 @@ std::vector<double> logarithms(std::span<const double> values) {
 }  // namespace
 
 double median(std::span<const double> values) {
-    if (values.empty()) throw std::invalid_argument("no values have no median");
-    std::vector<double> v(values.begin(), values.end());
-    const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-    std::nth_element(v.begin(), middle, v.end());
-    if (v.size() % 2 == 1) return *middle;
-    return 0.5 * (*middle + *std::max_element(v.begin(), middle));
+    std::vector<double> copy(values.begin(), values.end());
+    return median_of(copy);
 }
 
 Estimate median_estimate(std::span<const double> values) {
@@ -44,7 +49,7 @@ Estimate median_estimate(std::span<const double> values) {
     for (double& m : medians) {
         // The same on every system, which std::uniform_int_distribution is not.
         for (double& s : sample) s = values[(random() >> 32) * values.size() >> 32];
-        m = median(sample);
+        m = median_of(sample);
     }
     std::sort(medians.begin(), medians.end());
     return {median(values), quantile(medians, 0.5 * (1 - level)), quantile(medians, 0.5 * (1 + level))};
