@@ -8,8 +8,11 @@
 #include <span>
 
 #include "app/command_line.h"
+#include "app/output.h"
 #include "app/report.h"
+#include "base/colour.h"
 #include "io/io.h"
+#include "measure/flip.h"
 #include "measure/image_metrics.h"
 
 namespace triad {
@@ -18,31 +21,59 @@ namespace {
 struct CompareOptions {
     std::string picture, reference, json;
     std::vector<std::string> metrics;
-    std::optional<double> max_rmse, max_relmse, max_mae, min_psnr;
+    std::optional<double> max_rmse, max_relmse, max_mae, max_flip, min_psnr;
 };
+
+/// Picture and reference.
+struct Compared {
+    std::array<std::vector<float>, 2> values;  ///< of the channels that both have, one after the other
+    std::array<RgbImage, 2> display;           ///< display-linear; empty where R, G or B is missing
+};
+
+template <double (*metric)(std::span<const float>, std::span<const float>)>
+double of_values(const Compared& c) {
+    return metric(c.values[0], c.values[1]);
+}
 
 struct Metric {
     const char* name;
-    double (*of)(std::span<const float>, std::span<const float>);
+    double (*of)(const Compared&);
     std::optional<double> CompareOptions::*limit;
     bool more_is_better;
 };
 constexpr Metric metrics[] = {
-    {"rmse", rmse, &CompareOptions::max_rmse, false},
-    {"relmse", relmse, &CompareOptions::max_relmse, false},
-    {"mae", mean_absolute_error, &CompareOptions::max_mae, false},
-    {"psnr", [](std::span<const float> a, std::span<const float> b) { return psnr(a, b); },
-     &CompareOptions::min_psnr, true}};
+    {"rmse", of_values<rmse>, &CompareOptions::max_rmse, false},
+    {"relmse", of_values<relmse>, &CompareOptions::max_relmse, false},
+    {"mae", of_values<mean_absolute_error>, &CompareOptions::max_mae, false},
+    {"psnr", [](const Compared& c) { return psnr(c.values[0], c.values[1]); }, &CompareOptions::min_psnr,
+     true},
+    {"flip", [](const Compared& c) { return mean_flip(flip_map(c.display[0], c.display[1])); },
+     &CompareOptions::max_flip, false}};
+
+/// What a display shows: files of 8 and 16 bits are sRGB, others are taken as display-linear, without a tone
+/// map.
+RgbImage display_of(const std::string& path, const Picture& picture) {
+    const Channel* channels[] = {picture.find("R"), picture.find("G"), picture.find("B")};
+    RgbImage image;
+    if (std::count(channels, channels + 3, nullptr) > 0) return image;
+    image = {picture.width, picture.height, std::vector<float>(channels[0]->values.size() * 3)};
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        const float v = channels[i % 3]->values[i / 3];
+        image.rgb[i] = is_linear(path) ? v : float(srgb_decode(v));
+    }
+    return image;
+}
 
 /// R, G and B (and A when both have it), or every channel that both have when there is no R; one after the
 /// other.
-std::array<std::vector<float>, 2> values_of(const CompareOptions& o) {
+Compared read(const CompareOptions& o) {
     const Picture a = read_picture(o.picture), b = read_picture(o.reference);
     auto size = [](const Picture& p) { return std::to_string(p.width) + "x" + std::to_string(p.height); };
     if (a.width != b.width || a.height != b.height)
         throw Error(Exit::comparison, "The pictures differ in size: " + o.picture + " is " + size(a) + ", " +
                                           o.reference + " is " + size(b) + ".");
-    std::array<std::vector<float>, 2> values;
+    Compared compared;
+    auto& values = compared.values;
     for (const Channel& channel : a.channels) {
         const bool beauty =
             channel.name == "R" || channel.name == "G" || channel.name == "B" || channel.name == "A";
@@ -54,24 +85,32 @@ std::array<std::vector<float>, 2> values_of(const CompareOptions& o) {
     if (values[0].empty())
         throw Error(Exit::comparison,
                     "The pictures " + o.picture + " and " + o.reference + " have no channel in common.");
-    return values;
+    compared.display = {display_of(o.picture, a), display_of(o.reference, b)};
+    return compared;
 }
 
 Exit run(const CompareOptions& o) {
-    const auto [picture, reference] = values_of(o);
+    const Compared compared = read(o);
+    const auto& [picture, reference] = compared.values;
+    const bool coloured = !compared.display[0].rgb.empty() && !compared.display[1].rgb.empty();
     std::size_t not_finite = 0;
     for (std::size_t i = 0; i < picture.size(); ++i)
         not_finite += !std::isfinite(picture[i]) || !std::isfinite(reference[i]);
     Json row = {{"picture", o.picture}, {"reference", o.reference}};
     std::string failures;
     for (const Metric& metric : metrics) {
-        const double value = metric.of(picture, reference);
-        if (o.metrics.empty() ||
-            std::find(o.metrics.begin(), o.metrics.end(), metric.name) != o.metrics.end()) {
+        const std::optional<double> limit = o.*metric.limit;
+        const bool named = std::find(o.metrics.begin(), o.metrics.end(), metric.name) != o.metrics.end();
+        if (!o.metrics.empty() && !named && !limit) continue;
+        if (metric.limit == &CompareOptions::max_flip && !coloured) {
+            if (named || limit) throw Error(Exit::comparison, "FLIP needs pictures with R, G and B.");
+            continue;
+        }
+        const double value = metric.of(compared);
+        if (o.metrics.empty() || named) {
             if (o.json != "-") std::printf("%-7s %.6g\n", metric.name, value);
             row[metric.name] = value;
         }
-        const std::optional<double> limit = o.*metric.limit;
         // Written so that NaN fails.
         if (limit && !(metric.more_is_better ? value >= *limit : value <= *limit)) {
             char text[160];
@@ -97,14 +136,15 @@ void add_compare(CLI::App& app, Exit& exit) {
     CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
     command->add_option("PICTURE", o->picture, "EXR, HDR, PNG or JPEG")->required()->type_name("");
     command->add_option("REFERENCE", o->reference, "The same size")->required()->type_name("");
-    command->add_option("--metric", o->metrics, "rmse, relmse, mae, psnr (default: all)")
+    command->add_option("--metric", o->metrics, "rmse, relmse, mae, psnr, flip (default: all)")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember({"rmse", "relmse", "mae", "psnr"}))
+        ->check(CLI::IsMember({"rmse", "relmse", "mae", "psnr", "flip"}))
         ->type_name("LIST");
     command->add_option("--max-rmse", o->max_rmse, "Exit 7 above this")->type_name("X");
     command->add_option("--max-relmse", o->max_relmse, "Exit 7 above this")->type_name("X");
     command->add_option("--max-mae", o->max_mae, "Exit 7 above this")->type_name("X");
+    command->add_option("--max-flip", o->max_flip, "Exit 7 above this")->type_name("X");
     command->add_option("--min-psnr", o->min_psnr, "Exit 7 below this")->type_name("X");
     command->add_option("--json", o->json, "Write the numbers as JSON (-: standard output)")
         ->type_name("FILE");

@@ -78,6 +78,8 @@ void declare_style(CLI::App& command, OutputStyle& style) {
 
 bool is_exr(const std::string& path) { return extension_of(path) == ".exr"; }
 
+bool is_linear(const std::string& path) { return is_linear_format(extension_of(path)); }
+
 void check_format(const std::string& path) {
     const std::string extension = extension_of(path);
     for (const char* known : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})

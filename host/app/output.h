@@ -24,6 +24,8 @@ struct OutputStyle {
 void declare_style(CLI::App& command, OutputStyle& style);
 
 bool is_exr(const std::string& path);
+/// Whether the extension is that of a format of linear values.
+bool is_linear(const std::string& path);
 /// Throws Error(usage) when `path` ("-" is standard output, as PNG) has no extension of a picture.
 void check_format(const std::string& path);
 /// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.

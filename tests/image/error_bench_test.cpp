@@ -1,0 +1,189 @@
+// What is known about error: it falls with the square root of independent samples, faster with Sobol's, and
+// the noise of a reference is not the picture's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lit_room.h"
+#include "measure/error_curves.h"
+#include "measure/error_runs.h"
+#include "render/resolve.h"
+
+namespace triad::analytic {
+namespace {
+
+RgbImage plain(const Film& film) {
+    const std::vector<float> rgba = resolve_linear(film);
+    RgbImage image{film.width, film.height, {}};
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        image.rgb.insert(image.rgb.end(), &rgba[4 * p], &rgba[4 * p] + 3);
+    return image;
+}
+
+/// References in memory.
+struct Kept {
+    std::map<std::string, Film> films;
+    unsigned rendered = 0;
+
+    ErrorBenchHost host() {
+        return {[this](const std::string& key) {
+                    const auto film = films.find(key);
+                    return film == films.end() ? std::nullopt : std::optional(film->second);
+                },
+                [this](const std::string& key, const Film& film) { films[key] = film, ++rendered; },
+                [](const Progress&, double) { return true; }, [] { return true; }, [](const ErrorRun&) {}};
+    }
+};
+
+ErrorCase make_case(const std::string& name, const View& view, unsigned size) {
+    ErrorCase c;
+    c.setting.name = name;
+    c.device = &test_device();
+    c.settings.width = c.settings.height = size;
+    c.settings.view = view;
+    c.display = [](Device&, const Film& film) { return plain(film); };
+    return c;
+}
+
+ErrorBench bench(const ErrorPlan& plan, Scene scene, const std::vector<ErrorCase>& cases, Kept& kept) {
+    validate(scene);
+    ErrorBench bench;
+    for (const ErrorCase& c : cases) bench.settings.push_back(c.setting);
+    ErrorScene name;
+    name.name = "scene";
+    EXPECT_TRUE(run_errors(plan, name, scene, cases, kept.host(), bench));
+    fit_curves(bench);
+    return bench;
+}
+
+/// Light that is smooth over pixel, direction and light: a wall under a large square lamp.
+Scene smooth_scene() {
+    Builder b;
+    b.add(square(0, true, 2), lambert(0.5f));
+    b.add(square(1.5, false, 0.6), emitter(4.0f));
+    return b.scene;
+}
+
+TEST(ErrorBench, independent_samples_have_a_slope_of_one_half_and_sobols_a_steeper_one) {
+    std::vector<ErrorCase> cases(2, make_case("sobol", orthographic({0, 0, 0}, {0, 1, 0}, 0.5, 1.0), 48));
+    for (ErrorCase& c : cases) c.settings.max_depth = 2;  // direct light
+    cases[1].setting.name = "independent";
+    cases[1].settings.independent = true;
+    Kept kept;
+    const ErrorBench b =
+        bench({.spp = 256, .repetitions = 5, .reference_spp = 4096}, smooth_scene(), cases, kept);
+    ASSERT_EQ(b.curves.size(), 2u);
+    const ErrorCurve &sobol = b.curves[0], &independent = b.curves[1];
+    ASSERT_EQ(independent.points.size(), 9u);
+    EXPECT_NEAR(independent.slope->value, -0.5, 0.05);
+    EXPECT_LE(independent.slope->low, -0.5);
+    EXPECT_GE(independent.slope->high, -0.5);
+    EXPECT_LT(sobol.slope->high, -0.6);
+    EXPECT_TRUE(b.right()) << sobol.verdict << "\n" << independent.verdict;
+    EXPECT_LT(sobol.points.back().relmse.value, 0.2 * independent.points.back().relmse.value);
+}
+
+TEST(ErrorBench, the_noise_of_the_reference_does_not_count) {
+    // Of a reference of 16 samples the runs' own error is the smaller part, and still the same numbers come
+    // out.
+    const std::vector<ErrorCase> cases = {make_case("default", room_view(), 48)};
+    const ErrorPlan plan{.spp = 32, .repetitions = 8};
+    const auto measure = [&](std::uint64_t reference_spp) {
+        Kept kept;
+        ErrorPlan with = plan;
+        with.reference_spp = reference_spp;
+        return bench(with, lit_room(1, false), cases, kept);
+    };
+    const ErrorBench few = measure(16), many = measure(2048);
+    EXPECT_GT(few.scenes[0].reference_relmse, many.curves[0].points.back().relmse.value);
+    EXPECT_LT(many.scenes[0].reference_relmse, 0.05 * many.curves[0].points.back().relmse.value);
+    std::vector<double> differences, mse_differences, uncorrected;
+    for (std::size_t i = 0; i < few.runs.size(); ++i) {
+        if (few.runs[i].spp != 32) continue;
+        differences.push_back(few.runs[i].relmse / many.runs[i].relmse - 1);
+        mse_differences.push_back(few.runs[i].mse / many.runs[i].mse - 1);
+        uncorrected.push_back((few.runs[i].relmse + few.scenes[0].reference_relmse) / many.runs[i].relmse -
+                              1);
+    }
+    ASSERT_EQ(differences.size(), 8u);
+    // One reference is common to all runs: what its halves' product is off by, 2304 pixels average out.
+    EXPECT_NEAR(median(differences), 0, 0.15);
+    EXPECT_NEAR(median(mse_differences), 0, 0.2);
+    EXPECT_GT(median(uncorrected), 1);
+}
+
+TEST(ErrorBench, references_are_kept_reused_and_rendered_on) {
+    std::vector<ErrorCase> cases = {make_case("default", room_view(), 16)};
+    Kept kept;
+    ErrorPlan plan{.spp = 2, .repetitions = 1, .reference_spp = 8};
+    bench(plan, lit_room(1, false), cases, kept);
+    EXPECT_EQ(kept.rendered, 1u);
+    cases[0].settings.seed = 5, cases[0].settings.roulette = 1, cases[0].settings.bins_x = 2;
+    cases[0].settings.independent = true;  // nothing that changes what is expected
+    plan.reference_spp = 6;
+    EXPECT_EQ(bench(plan, lit_room(1, false), cases, kept).scenes[0].reference_spp, 8);
+    EXPECT_EQ(kept.rendered, 1u);
+    plan.reference_spp = 31;  // two equal halves need 32
+    bench(plan, lit_room(1, false), cases, kept);
+    EXPECT_EQ(kept.rendered, 2u);
+    ASSERT_EQ(kept.films.size(), 1u);
+    Kept fresh;
+    bench(plan, lit_room(1, false), cases, fresh);
+    EXPECT_EQ(kept.films.begin()->second.sums, fresh.films.begin()->second.sums);
+    EXPECT_EQ(kept.films.begin()->second.ranges, (std::vector<SampleRange>{{0, 32}}));
+    cases[0].settings.max_depth = 3;
+    bench(plan, lit_room(1, false), cases, kept);
+    EXPECT_EQ(kept.films.size(), 2u);
+}
+
+TEST(ErrorBench, a_wrong_picture_is_found) {
+    std::vector<ErrorCase> cases(2, make_case("all light", room_view(), 48));
+    cases[1].setting.name = "no fifth bounce";
+    cases[1].settings.max_depth = 5;
+    Kept kept;
+    ErrorPlan plan{.spp = 64, .repetitions = 3, .reference_spp = 1024};
+    const ErrorBench b = bench(plan, lit_room(1, false), cases, kept);
+    EXPECT_TRUE(b.curves[0].right) << b.curves[0].verdict;
+    EXPECT_FALSE(b.curves[1].right) << b.curves[1].verdict;
+    EXPECT_FALSE(b.right());
+    plan.own_references = true;
+    EXPECT_TRUE(bench(plan, lit_room(1, false), cases, kept).right());
+}
+
+TEST(ErrorBench, adaptive_runs_have_a_curve_too) {
+    std::vector<ErrorCase> cases(2, make_case("even", room_view(), 32));
+    cases[1].setting.name = "adaptive";
+    cases[1].adaptive = true;
+    Kept kept;
+    const ErrorBench b =
+        bench({.spp = 32, .repetitions = 2, .reference_spp = 512}, lit_room(1, false), cases, kept);
+    EXPECT_TRUE(b.right());
+    ASSERT_EQ(b.curves[1].points.size(), 6u);
+    EXPECT_NEAR(b.curves[1].points.back().spp, 32, 1);
+    EXPECT_LT(b.curves[1].points.back().relmse.value, 1.2 * b.curves[0].points.back().relmse.value);
+}
+
+TEST(ErrorBench, stops_between_passes_with_what_was_measured) {
+    Scene scene = lit_room(1, false);
+    validate(scene);
+    const std::vector<ErrorCase> cases = {make_case("default", room_view(), 16)};
+    Kept kept;
+    ErrorBenchHost host = kept.host();
+    int left = 6;
+    host.go_on = [&] { return left-- > 0; };
+    ErrorBench b;
+    b.settings = {cases[0].setting};
+    ErrorScene name;
+    name.name = "scene";
+    EXPECT_FALSE(run_errors({.spp = 256, .repetitions = 5, .reference_spp = 8}, name, scene, cases, host, b));
+    fit_curves(b);
+    EXPECT_GT(b.runs.size(), 0u);
+    EXPECT_LT(b.runs.size(), 9u);
+    ASSERT_EQ(b.curves.size(), 1u);
+    EXPECT_EQ(b.curves[0].points.size(), b.runs.size());
+    EXPECT_TRUE(b.curves[0].right);
+    EXPECT_TRUE(b.curves[0].verdict.starts_with("Not tested")) << b.curves[0].verdict;
+}
+
+}  // namespace
+}  // namespace triad::analytic
