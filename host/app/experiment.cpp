@@ -99,7 +99,6 @@ RenderOptions render_options(const std::vector<std::string>& common, const Named
         if (app.get_option(name)->count() > 0)
             throw Error(Exit::usage,
                         where + name + " is for the bench to decide: see triad bench error --help.");
-    if (app.get_option("SCENE")->count() > 1) throw Error(Exit::usage, where + "more than one file.");
     return options;
 }
 

@@ -156,6 +156,7 @@ const std::map<std::string, Recipe>& recipes() {
              s.settings.view.lens_radius = 0.03;
              s.settings.view.focus_distance = 4.4;
          }}},
+        {"INDEPENDENT_SAMPLES", {[](FeatureScene& s) { s.settings.independent = true; }}},
         {"BINS", {[](FeatureScene& s) { s.settings.bins_x = s.settings.bins_y = 2; }}},
     };
     return all;

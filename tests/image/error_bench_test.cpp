@@ -65,51 +65,52 @@ Scene smooth_scene() {
 }
 
 TEST(ErrorBench, independent_samples_have_a_slope_of_one_half_and_sobols_a_steeper_one) {
-    std::vector<ErrorCase> cases(2, make_case("sobol", orthographic({0, 0, 0}, {0, 1, 0}, 0.5, 1.0), 48));
+    std::vector<ErrorCase> cases(2, make_case("sobol", orthographic({0, 0, 0}, {0, -1, 0}, 0.5, 1.0), 48));
     for (ErrorCase& c : cases) c.settings.max_depth = 2;  // direct light
     cases[1].setting.name = "independent";
     cases[1].settings.independent = true;
     Kept kept;
     const ErrorBench b =
-        bench({.spp = 256, .repetitions = 5, .reference_spp = 4096}, smooth_scene(), cases, kept);
+        bench({.spp = 128, .repetitions = 5, .reference_spp = 2048}, smooth_scene(), cases, kept);
     ASSERT_EQ(b.curves.size(), 2u);
     const ErrorCurve &sobol = b.curves[0], &independent = b.curves[1];
-    ASSERT_EQ(independent.points.size(), 9u);
+    ASSERT_EQ(independent.points.size(), 8u);
+    ASSERT_TRUE(independent.slope && sobol.slope);
     EXPECT_NEAR(independent.slope->value, -0.5, 0.05);
     EXPECT_LE(independent.slope->low, -0.5);
     EXPECT_GE(independent.slope->high, -0.5);
     EXPECT_LT(sobol.slope->high, -0.6);
     EXPECT_TRUE(b.right()) << sobol.verdict << "\n" << independent.verdict;
-    EXPECT_LT(sobol.points.back().relmse.value, 0.2 * independent.points.back().relmse.value);
+    EXPECT_LT(sobol.points.back().relmse.value, 0.5 * independent.points.back().relmse.value);
 }
 
 TEST(ErrorBench, the_noise_of_the_reference_does_not_count) {
-    // Of a reference of 16 samples the runs' own error is the smaller part, and still the same numbers come
-    // out.
+    // The variance of the first reference is greater than the error that is measured, and still the same
+    // comes out. One reference is common to all runs: what the product of its halves is off by, 2304 pixels
+    // average out.
     const std::vector<ErrorCase> cases = {make_case("default", room_view(), 48)};
-    const ErrorPlan plan{.spp = 32, .repetitions = 8};
     const auto measure = [&](std::uint64_t reference_spp) {
         Kept kept;
-        ErrorPlan with = plan;
-        with.reference_spp = reference_spp;
-        return bench(with, lit_room(1, false), cases, kept);
+        const ErrorPlan plan{.spp = 32, .repetitions = 8, .reference_spp = reference_spp};
+        return bench(plan, lit_room(1, false), cases, kept);
     };
-    const ErrorBench few = measure(16), many = measure(2048);
-    EXPECT_GT(few.scenes[0].reference_relmse, many.curves[0].points.back().relmse.value);
-    EXPECT_LT(many.scenes[0].reference_relmse, 0.05 * many.curves[0].points.back().relmse.value);
-    std::vector<double> differences, mse_differences, uncorrected;
-    for (std::size_t i = 0; i < few.runs.size(); ++i) {
-        if (few.runs[i].spp != 32) continue;
-        differences.push_back(few.runs[i].relmse / many.runs[i].relmse - 1);
-        mse_differences.push_back(few.runs[i].mse / many.runs[i].mse - 1);
-        uncorrected.push_back((few.runs[i].relmse + few.scenes[0].reference_relmse) / many.runs[i].relmse -
-                              1);
-    }
-    ASSERT_EQ(differences.size(), 8u);
-    // One reference is common to all runs: what its halves' product is off by, 2304 pixels average out.
-    EXPECT_NEAR(median(differences), 0, 0.15);
-    EXPECT_NEAR(median(mse_differences), 0, 0.2);
-    EXPECT_GT(median(uncorrected), 1);
+    const ErrorBench poor = measure(16), fair = measure(128), good = measure(2048);
+    EXPECT_LT(good.scenes[0].reference_relmse, 0.05 * good.curves[0].points.back().relmse.value);
+    const auto ratio = [&](const ErrorBench& b, auto value) {
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < b.runs.size(); ++i)
+            if (b.runs[i].spp == 32) ratios.push_back(value(b.runs[i]) / value(good.runs[i]));
+        EXPECT_EQ(ratios.size(), 8u);
+        return median(ratios);
+    };
+    const auto mse = [](const ErrorRun& r) { return r.mse; };
+    const auto relmse = [](const ErrorRun& r) { return r.relmse; };
+    EXPECT_NEAR(ratio(poor, mse), 1, 0.15);
+    EXPECT_NEAR(ratio(fair, mse), 1, 0.05);
+    EXPECT_NEAR(ratio(fair, relmse), 1, 0.1);  // whose weights have the reference's noise too
+    // What would come out if it were not subtracted.
+    EXPECT_GT(poor.scenes[0].reference_relmse, good.curves[0].points.back().relmse.value);
+    EXPECT_GT(fair.scenes[0].reference_relmse, 0.15 * good.curves[0].points.back().relmse.value);
 }
 
 TEST(ErrorBench, references_are_kept_reused_and_rendered_on) {
