@@ -18,7 +18,9 @@ Json to_json(const std::optional<Estimate>& e) {
 }
 
 std::string text_of(const std::optional<Estimate>& e, const char* pattern) {
-    return e ? format(pattern, e->value, e->low, e->high) : "-";
+    if (!e) return "-";
+    if (!std::isfinite(e->low)) return format("%.3g", e->value);  // a single run has no interval
+    return format(pattern, e->value, e->low, e->high);
 }
 
 const char* name_of(ErrorChange::Verdict verdict) {
