@@ -1,12 +1,12 @@
-/* The list of compile-time options: what a program can leave out. Everything is on by default; the program with
- * everything on renders every scene, and a specialised one gives the same bits. */
+/* The list of compile-time options: what a program can leave out. Everything is on by default; the program
+ * with everything on renders every scene, and a specialised one gives the same bits. */
 #ifndef TRIAD_FEATURES_H
 #define TRIAD_FEATURES_H
 
-#ifndef TRIAD_INSTANCES /* a second level of trees: some mesh is placed by instances instead of being flattened */
+#ifndef TRIAD_INSTANCES /* some mesh is placed by instances: a second level of trees */
 #define TRIAD_INSTANCES 1
 #endif
-#ifndef TRIAD_ALPHA_TEST /* some material has alphaMode MASK or BLEND: rays test coverage at every candidate hit */
+#ifndef TRIAD_ALPHA_TEST /* some alphaMode is MASK or BLEND: rays test coverage */
 #define TRIAD_ALPHA_TEST 1
 #endif
 #ifndef TRIAD_TEXTURES /* some material uses a texture */
@@ -39,7 +39,8 @@
 #ifndef TRIAD_LENS /* the camera has an aperture */
 #define TRIAD_LENS 1
 #endif
-#ifndef TRIAD_INDEPENDENT_SAMPLES /* samples may be asked to be independent of each other instead of Sobol's */
+#ifndef TRIAD_INDEPENDENT_SAMPLES /* samples may be asked to be independent of each other instead of Sobol's \
+                                   */
 #define TRIAD_INDEPENDENT_SAMPLES 1
 #endif
 #ifndef TRIAD_BINS /* the film has more than one bin per pixel */

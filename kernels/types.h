@@ -1,9 +1,9 @@
 /* The border: every struct and constant that host and device share. C++ and OpenCL C read this same file.
  *
- * Rules: 4-byte scalars and arrays of them only (no vector types, pointers, enums, bools), so that every compiler lays
- * them out alike; sizes are asserted here on both sides, offsets by the device test `layout`.
- * Units: lengths in scene units, rebased to the render origin unless said; radiance in W/(m^2 sr) per channel of linear
- * Rec.709 (for glTF: nits); angles in radians.
+ * Rules: 4-byte scalars and arrays of them only (no vector types, pointers, enums, bools), so that every
+ * compiler lays them out alike; sizes are asserted here on both sides, offsets by the device test `layout`.
+ * Units: lengths in scene units, rebased to the render origin unless said; radiance in W/(m^2 sr) per channel
+ * of linear Rec.709 (for glTF: nits); angles in radians.
  */
 #ifndef TRIAD_TYPES_H
 #define TRIAD_TYPES_H
@@ -12,26 +12,27 @@
 #define TRIAD_SIZE(type, bytes) typedef char type##_has_##bytes##_bytes[sizeof(type) == (bytes) ? 1 : -1]
 #else
 #include <cstdint>
-namespace triad::dev { /* the device side of the border: triad::Material is the scene's, triad::dev::Material the kernels' */
+namespace triad::dev { /* triad::Material is the scene's, triad::dev::Material the kernels' */
 using uint = std::uint32_t;
 #define TRIAD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " has " #bytes " bytes")
 #endif
 
 #define TRIAD_NONE 0xffffffffu /* no index: no texture, no attribute, no primitive */
 
-/* ---- Traversal ------------------------------------------------------------------------------------------------ */
+/* ---- Traversal ---- */
 
 #define BVH_WIDTH 8
 #define BVH_EMPTY 0xffffffffu    /* child slot without a child; its box is inverted (lo = +inf, hi = -inf) */
 #define BVH_LEAF 0x80000000u     /* child = BVH_LEAF | index of a TriangleBlock */
 #define BVH_INSTANCE 0x40000000u /* child = BVH_INSTANCE | index of an Instance (top level only) */
 #define BVH_INDEX 0x3fffffffu    /* else: index of a BvhNode */
-#define BVH_ALPHA 0x40000000u    /* of a BVH_LEAF: some triangle of the block is not opaque, coverage must be asked */
+#define BVH_ALPHA 0x40000000u    /* of a BVH_LEAF: some triangle is not opaque, coverage must be asked */
 #define BVH_DEPTH 9              /* levels of nodes in one tree at most; the builder keeps to it */
-#define BVH_STACK 128            /* entries of the traversal stack: BVH_DEPTH * 7 + 1 for each of two levels of trees */
+#define BVH_STACK 128            /* entries of the stack: BVH_DEPTH * 7 + 1 for each of two levels */
 
-/* Eight boxes in SoA: bounds[axis * 2] are the low, bounds[axis * 2 + 1] the high planes, padded at build so that the
- * slab test in float misses nothing. Units of the space the tree lives in (world rebased, or object). */
+/* Eight boxes in SoA: bounds[axis * 2] are the low, bounds[axis * 2 + 1] the high planes, padded at build so
+ * that the slab test in float misses nothing. Units of the space the tree lives in (world rebased, or
+ * object). */
 typedef struct BvhNode {
     float bounds[6][BVH_WIDTH];
     uint child[BVH_WIDTH];
@@ -39,8 +40,8 @@ typedef struct BvhNode {
 } BvhNode;
 TRIAD_SIZE(BvhNode, 256);
 
-/* Four triangles in SoA; a short block repeats its last triangle. vertex[corner * 3 + axis][lane]. `primitive` indexes
- * the scene's Triangle array, over all meshes. */
+/* Four triangles in SoA; a short block repeats its last triangle. vertex[corner * 3 + axis][lane].
+ * `primitive` indexes the scene's Triangle array, over all meshes. */
 typedef struct TriangleBlock {
     float vertex[9][4];
     uint primitive[4];
@@ -58,8 +59,8 @@ typedef struct Instance {
 } Instance;
 TRIAD_SIZE(Instance, 128);
 
-/* A ray and what it must not hit again: the triangle it leaves (TRIAD_NONE: none). t is measured in lengths of
- * `direction`, which need not be normalised. */
+/* A ray and what it must not hit again: the triangle it leaves (TRIAD_NONE: none). t is measured in lengths
+ * of `direction`, which need not be normalised. */
 typedef struct Ray {
     float origin[3];
     float t_max;
@@ -70,8 +71,8 @@ typedef struct Ray {
 } Ray;
 TRIAD_SIZE(Ray, 48);
 
-/* Closest hit; primitive is TRIAD_NONE when there is none. u, v are the barycentric weights of corners 1 and 2.
- * At equal t the lower (instance, primitive) wins on every device. */
+/* Closest hit; primitive is TRIAD_NONE when there is none. u, v are the barycentric weights of corners 1
+ * and 2. At equal t the lower (instance, primitive) wins on every device. */
 typedef struct Hit {
     float t, u, v;
     uint primitive;
@@ -81,7 +82,7 @@ typedef struct Hit {
 } Hit;
 TRIAD_SIZE(Hit, 32);
 
-/* ---- Geometry --------------------------------------------------------------------------------------------------- */
+/* ---- Geometry ---- */
 
 /* Corner indices are relative to the geometry's attribute arrays. */
 typedef struct Triangle {
@@ -91,8 +92,8 @@ typedef struct Triangle {
 TRIAD_SIZE(Triangle, 16);
 
 /* One glTF primitive. The attribute members are the index of its first vertex in that attribute's array, or
- * TRIAD_NONE. Directions of flattened geometry are in rebased world space, of instanced in object space; the positions
- * are in the TriangleBlocks. */
+ * TRIAD_NONE. Directions of flattened geometry are in rebased world space, of instanced in object space; the
+ * positions are in the TriangleBlocks. */
 typedef struct Geometry {
     uint first_triangle;
     uint material;
@@ -100,14 +101,15 @@ typedef struct Geometry {
     uint tangent;     /* float[4], w = handedness */
     uint uv[2];       /* float[2] */
     uint colour;      /* float[4], linear */
-    uint first_light; /* light of triangle first_triangle when the material emits (one light per triangle), else NONE */
-    uint touching;    /* solid body: material of the body whose surface coincides with these triangles, facing the other
-                       * way, or TRIAD_NONE. The tree holds one of the two surfaces */
+    uint first_light; /* light of triangle first_triangle when the material emits (one light per triangle),
+                         else NONE */
+    uint touching;    /* solid body: material of the body whose surface coincides with these triangles, facing
+                       * the other    way, or TRIAD_NONE. The tree holds one of the two surfaces */
     uint unused[3];
 } Geometry;
 TRIAD_SIZE(Geometry, 48);
 
-/* ---- Textures and materials --------------------------------------------------------------------------------------- */
+/* ---- Textures and materials ---- */
 
 #define TEXTURE_RGBA8 0u      /* one uint per texel, R in the low byte */
 #define TEXTURE_RGBA8_SRGB 1u /* the same, RGB decoded with the sRGB curve */
@@ -128,7 +130,8 @@ typedef struct Texture {
 } Texture;
 TRIAD_SIZE(Texture, 32);
 
-/* A use of a texture: which UV set, and KHR_texture_transform as u' = m[0] u + m[1] v + m[2], v' = m[3] u + ... */
+/* A use of a texture: which UV set, and KHR_texture_transform as u' = m[0] u + m[1] v + m[2], v' = m[3] u +
+ * ... */
 typedef struct TextureUse {
     uint texture;
     uint uv_set;
@@ -139,11 +142,13 @@ TRIAD_SIZE(TextureUse, 32);
 #define MATERIAL_DOUBLE_SIDED 1u /* emits on both sides */
 #define MATERIAL_ALPHA_MASK 2u
 #define MATERIAL_ALPHA_BLEND 4u
-#define MATERIAL_SOLID 8u /* KHR_materials_volume with thickness > 0: a closed body that refracts and absorbs */
+#define MATERIAL_SOLID \
+    8u /* KHR_materials_volume with thickness > 0: a closed body that refracts and absorbs */
 #define MATERIAL_UNLIT 16u
 
 /* glTF metallic-roughness with KHR ior, specular, transmission, volume, emissive_strength, unlit.
- * The *_use members index the TextureUse array or are TRIAD_NONE. Factors multiply textures, as the extensions say. */
+ * The *_use members index the TextureUse array or are TRIAD_NONE. Factors multiply textures, as the
+ * extensions say. */
 typedef struct Material {
     float base_colour[4];
     float emission[3]; /* radiance, strength included */
@@ -169,16 +174,16 @@ typedef struct Material {
 TRIAD_SIZE(Material, 128);
 
 /* Directional-albedo tables, one float array (host/render/albedo_tables.h, kernels/shading/albedo.h).
- * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over [0, 1].
- * Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index axis at
- * (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. */
+ * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over
+ * [0, 1]. Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index
+ * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. */
 #define ALBEDO_SIZE 32
 #define ALBEDO_GLASS_SIZE 16
 #define ALBEDO_GLASS_MAX 0.6f
 #define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
 #define ALBEDO_FLOATS (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
 
-/* ---- Lights --------------------------------------------------------------------------------------------------------- */
+/* ---- Lights ---- */
 
 #define LIGHT_TRIANGLE 0u
 #define LIGHT_POINT 1u
@@ -186,8 +191,8 @@ TRIAD_SIZE(Material, 128);
 #define LIGHT_DIRECTIONAL 3u
 #define LIGHT_ENVIRONMENT 4u
 
-/* colour: radiance factor of a triangle (texture not included), intensity W/sr of point and spot, irradiance of
- * directional. Emissive geometry is always flattened, so positions are in rebased world space. */
+/* colour: radiance factor of a triangle (texture not included), intensity W/sr of point and spot, irradiance
+ * of directional. Emissive geometry is always flattened, so positions are in rebased world space. */
 typedef struct Light {
     uint type;
     uint primitive;    /* TRIANGLE: its Triangle */
@@ -207,8 +212,8 @@ typedef struct Light {
 TRIAD_SIZE(Light, 96);
 
 /* The shape of a tree over n intervals of [0, 2^32 - 1), searched eight bounds at a time. Level k holds every
- * 8^(levels - 1 - k)-th bound, in groups of eight, from first[k] on; the last level holds them all, and the final bound
- * 2^32 - 1 after them. What is over is filled with 2^32 - 1. */
+ * 8^(levels - 1 - k)-th bound, in groups of eight, from first[k] on; the last level holds them all, and the
+ * final bound 2^32 - 1 after them. What is over is filled with 2^32 - 1. */
 #define CDF_LEVELS 8
 typedef struct CdfShape {
     uint levels;
@@ -217,9 +222,10 @@ typedef struct CdfShape {
 } CdfShape;
 TRIAD_SIZE(CdfShape, 40);
 
-/* The columns of the environment's rows: 16-bit trees of 32 children, level by level from the top, the rows of a level
- * one after the other, so that the upper levels of all rows stay in the cache. An entry is the last of the 65536 equal
- * shares of its row that belongs to it or to what comes before it; every column has one share at least. */
+/* The columns of the environment's rows: 16-bit trees of 32 children, level by level from the top, the rows
+ * of a level one after the other, so that the upper levels of all rows stay in the cache. An entry is the
+ * last of the 65536 equal shares of its row that belongs to it or to what comes before it; every column has
+ * one share at least. */
 #define COLUMNS_FANOUT 32u
 #define COLUMNS_LEVELS 3 /* up to 32768 columns */
 typedef struct ColumnsShape {
@@ -232,10 +238,13 @@ TRIAD_SIZE(ColumnsShape, 32);
 
 /* A texel of the environment and the solid-angle density of drawing a direction in it. */
 #define ENVIRONMENT_FLOAT 0u /* float[4]: R, G, B, density */
-#define ENVIRONMENT_RGBE 1u  /* uint[2]: 8-bit R, G, B from the low byte, times 2^(top byte - 127); density */
+#define ENVIRONMENT_RGBE                                                              \
+    1u /* uint[2]: 8-bit R, G, B from the low byte, times 2^(top byte - 127); density \
+        */
 
 /* The environment: radiance = strength * texel, bilinear. World y is up before the rotation about it.
- * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere. */
+ * u = .5 + atan2(z, x) / 2 pi, v = acos(y) / pi from the top. width 0: none, radiance is `colour` everywhere.
+ */
 typedef struct Environment {
     uint width, height;
     uint light; /* its Light, or TRIAD_NONE when it emits nothing */
@@ -243,19 +252,20 @@ typedef struct Environment {
     float rotate_cos, rotate_sin; /* map direction = (c x + s z, y, -s x + c z) of world direction */
     CdfShape rows;
     ColumnsShape columns;
-    float colour[4];        /* used when width is 0 */
+    float colour[4]; /* used when width is 0 */
     uint format;
     uint unused;
 } Environment;
 TRIAD_SIZE(Environment, 120);
 
-/* ---- Camera and film -------------------------------------------------------------------------------------------------- */
+/* ---- Camera and film ---- */
 
 #define CAMERA_PERSPECTIVE 0u
 #define CAMERA_ORTHOGRAPHIC 1u
 
-/* right, up, forward are unit and orthogonal. Image plane: x right, y down, in pixels of the full picture. The ray of
- * film position (x, y) passes forward + right * (x / width * 2 - 1) * extent[0] - up * (y / height * 2 - 1) * extent[1]. */
+/* right, up, forward are unit and orthogonal. Image plane: x right, y down, in pixels of the full picture.
+ * The ray of film position (x, y) passes forward + right * (x / width * 2 - 1) * extent[0] - up * (y / height
+ * * 2 - 1) * extent[1]. */
 typedef struct Camera {
     float origin[3];
     float lens_radius;
@@ -265,7 +275,8 @@ typedef struct Camera {
     uint projection;
     float forward[3];
     uint unused;
-    float extent[2]; /* half width and half height of the image plane at distance 1 (orthographic: in scene units) */
+    float extent[2]; /* half width and half height of the image plane at distance 1 (orthographic: in scene
+                        units) */
     float pixels[2]; /* width and height of the full picture */
 } Camera;
 TRIAD_SIZE(Camera, 80);
@@ -279,20 +290,21 @@ typedef struct Frame {
     uint crop[4]; /* x, y, width, height in pixels of the full picture; the film covers the crop only */
     uint bins[2]; /* bins per pixel in x and y */
     uint seed;
-    uint max_depth; /* edges; 0 = no limit */
+    uint max_depth;   /* edges; 0 = no limit */
     uint transparent; /* 1: the camera does not see the environment; alpha is 0 there */
     uint light_count;
-    float quanta; /* fixed-point units per unit of radiance: a power of two */
-    uint root;    /* node of the world's tree */
-    CdfShape lights; /* the tree that lights are picked by */
-    float roulette;  /* 1 / throughput below which roulette kills, in proportion */
+    float quanta;     /* fixed-point units per unit of radiance: a power of two */
+    uint root;        /* node of the world's tree */
+    CdfShape lights;  /* the tree that lights are picked by */
+    float roulette;   /* 1 / throughput below which roulette kills, in proportion */
     uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
 } Frame;
 TRIAD_SIZE(Frame, 296);
 
-/* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first. The pixels of
- * a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling decides for one set by what
- * the other has found, so that no pixel's samples decide how many it gets (host/render/adaptive.h). */
+/* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
+ * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling
+ * decides for one set by what the other has found, so that no pixel's samples decide how many it gets
+ * (host/render/adaptive.h). */
 #define FILM_TILE 8
 #define FILM_TILE_PIXELS 64
 typedef struct TileWork {
@@ -307,14 +319,14 @@ TRIAD_SIZE(TileWork, 32);
 #define FILM_CHANNELS 4
 
 /* Counters, as pairs of uints (low, high): what happened, over all launches. Index = 2 * COUNTER_x. */
-#define COUNTER_RAYS 0        /* closest-hit and occlusion rays */
-#define COUNTER_NOT_FINITE 1  /* samples dropped for a NaN or an infinity */
-#define COUNTER_SATURATED 2   /* samples that did not fit the fixed point */
-#define COUNTER_TRUNCATED 3   /* paths cut by max_depth */
-#define COUNTER_CUT_ENERGY 4  /* sum of their throughput (luminance), in 1/65536 */
+#define COUNTER_RAYS 0       /* closest-hit and occlusion rays */
+#define COUNTER_NOT_FINITE 1 /* samples dropped for a NaN or an infinity */
+#define COUNTER_SATURATED 2  /* samples that did not fit the fixed point */
+#define COUNTER_TRUNCATED 3  /* paths cut by max_depth */
+#define COUNTER_CUT_ENERGY 4 /* sum of their throughput (luminance), in 1/65536 */
 #define COUNTERS 5
 
-/* ---- Recorded paths (kernels/shading/record.cl) ---------------------------------------------------------------- */
+/* ---- Recorded paths (kernels/shading/record.cl) ---- */
 
 /* How a direction was sampled: bits. */
 #define BSDF_NONE 0u
@@ -326,22 +338,22 @@ TRIAD_SIZE(TileWork, 32);
 /* Why a path ends at a vertex. */
 #define PATH_GOES_ON 0u
 #define PATH_LEFT_SCENE 1u
-#define PATH_UNLIT 2u     /* an unlit surface */
-#define PATH_LONGEST 3u   /* Frame.max_depth */
-#define PATH_ABSORBED 4u  /* no direction was sampled, or one that shading normals do not allow */
+#define PATH_UNLIT 2u    /* an unlit surface */
+#define PATH_LONGEST 3u  /* Frame.max_depth */
+#define PATH_ABSORBED 4u /* no direction was sampled, or one that shading normals do not allow */
 #define PATH_ROULETTE 5u
 
-/* One vertex after the camera. Radiance is what reaches the camera. primitive TRIAD_NONE: the path left the scene, and
- * `position` is its direction; material is TRIAD_NONE too. */
+/* One vertex after the camera. Radiance is what reaches the camera. primitive TRIAD_NONE: the path left the
+ * scene, and `position` is its direction; material is TRIAD_NONE too. */
 typedef struct PathVertex {
     float position[3]; /* rebased */
     uint primitive;
     uint instance;
     uint material;
-    uint event; /* BSDF_* bits of the direction that goes on */
-    uint end;   /* PATH_* */
-    float found[3];  /* emission that the path hit here, or the environment */
-    uint light;      /* the Light that was sampled here and gave `direct`; TRIAD_NONE: none did */
+    uint event;     /* BSDF_* bits of the direction that goes on */
+    uint end;       /* PATH_* */
+    float found[3]; /* emission that the path hit here, or the environment */
+    uint light;     /* the Light that was sampled here and gave `direct`; TRIAD_NONE: none did */
     float direct[3];
     float throughput[3]; /* of what goes on, roulette included */
     uint unused[2];

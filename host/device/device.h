@@ -33,8 +33,8 @@ struct DeviceInfo {
     std::size_t max_work_group = 0;
     bool fp64 = false, images = false, correctly_rounded = false, denormals = false, int64_atomics = false;
     bool usable = false;
-    bool preferred = false;    ///< what Triad chooses without --device
-    std::string why_unusable;  ///< a sentence; empty when usable
+    bool preferred = false;             ///< what Triad chooses without --device
+    std::string why_unusable;           ///< a sentence; empty when usable
     std::vector<std::string> settings;  ///< of its driver, that make it right: what is set, and why
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-/// The scene as plain data: no file format, no device. Spaces and units follow glTF: right-handed, y up, metres, nits,
-/// candela, lux; colours are linear Rec.709 unless a texture is marked sRGB. Row 0 of an image is its top row.
+/// The scene as plain data: no file format, no device. Spaces and units follow glTF: right-handed, y up,
+/// metres, nits, candela, lux; colours are linear Rec.709 unless a texture is marked sRGB. Row 0 of an image
+/// is its top row.
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -29,7 +30,8 @@ struct Texture {
     bool linear = true;
 };
 
-/// A texture as a material uses it. (u', v') = transform * (u, v, 1), rows in order (KHR_texture_transform applied).
+/// A texture as a material uses it. (u', v') = transform * (u, v, 1), rows in order (KHR_texture_transform
+/// applied).
 struct TextureUse {
     std::size_t texture = 0;
     unsigned uv_set = 0;  ///< 0 or 1
@@ -38,8 +40,8 @@ struct TextureUse {
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// glTF metallic-roughness and the KHR extensions of docs/conventions.md. Colour textures are decoded from sRGB
-/// (base_colour, emission, specular_colour); the others are linear data.
+/// glTF metallic-roughness and the KHR extensions of docs/conventions.md. Colour textures are decoded from
+/// sRGB (base_colour, emission, specular_colour); the others are linear data.
 struct Material {
     std::string name;
     vec4 base_colour{1.0f};
@@ -54,16 +56,16 @@ struct Material {
     float specular = 1.0f;
     vec3 specular_colour{1.0f};
     float transmission = 0.0f;
-    float thickness = 0.0f;           ///< > 0: the mesh is the surface of a solid body
-    vec3 attenuation_colour{1.0f};    ///< what is left of white light after attenuation_distance
+    float thickness = 0.0f;         ///< > 0: the mesh is the surface of a solid body
+    vec3 attenuation_colour{1.0f};  ///< what is left of white light after attenuation_distance
     float attenuation_distance = std::numeric_limits<float>::infinity();
     std::optional<TextureUse> base_colour_texture;         ///< sRGB, alpha linear
     std::optional<TextureUse> metallic_roughness_texture;  ///< G roughness, B metallic
     std::optional<TextureUse> normal_texture;
-    std::optional<TextureUse> emission_texture;            ///< sRGB
-    std::optional<TextureUse> specular_texture;            ///< A
-    std::optional<TextureUse> specular_colour_texture;     ///< sRGB
-    std::optional<TextureUse> transmission_texture;        ///< R
+    std::optional<TextureUse> emission_texture;         ///< sRGB
+    std::optional<TextureUse> specular_texture;         ///< A
+    std::optional<TextureUse> specular_colour_texture;  ///< sRGB
+    std::optional<TextureUse> transmission_texture;     ///< R
 };
 
 /// Triangles with one material. Optional attributes are empty or as long as positions.
@@ -85,7 +87,8 @@ struct Mesh {
 struct MeshInstance {
     std::string name;
     std::size_t mesh = 0;
-    dmat4 to_world{1.0};  ///< invertible; a negative determinant mirrors (the front stays the front, as glTF says)
+    dmat4 to_world{
+        1.0};  ///< invertible; a negative determinant mirrors (the front stays the front, as glTF says)
 };
 
 /// KHR_lights_punctual, placed. colour includes intensity: candela (point, spot) or lux (directional).
@@ -103,10 +106,10 @@ struct PunctualLight {
 struct SceneCamera {
     std::string name;
     bool orthographic = false;
-    double yfov = 0.8;          ///< perspective: vertical angle, radians
-    double aspect = 0.0;        ///< width / height the file asks for; 0: that of the picture
-    dvec2 magnification{1.0};   ///< orthographic: half width, half height
-    dmat4 to_world{1.0};        ///< rotation and translation only
+    double yfov = 0.8;         ///< perspective: vertical angle, radians
+    double aspect = 0.0;       ///< width / height the file asks for; 0: that of the picture
+    dvec2 magnification{1.0};  ///< orthographic: half width, half height
+    dmat4 to_world{1.0};       ///< rotation and translation only
 };
 
 /// Lat-long radiance map, RGB float, row 0 = up (+y); see Environment in kernels/types.h for the mapping.
@@ -131,8 +134,9 @@ struct Scene {
 /// World bounds of everything that is drawn.
 Bounds bounds_of(const Scene& scene);
 
-/// Checks every invariant above (indices, lengths, finite numbers, ranges). Throws Error(scene) that names the object.
-/// Also drops what cannot be drawn (triangles without area or with non-finite corners) and returns how many.
+/// Checks every invariant above (indices, lengths, finite numbers, ranges). Throws Error(scene) that names
+/// the object. Also drops what cannot be drawn (triangles without area or with non-finite corners) and
+/// returns how many.
 std::size_t validate(Scene& scene);
 
 /// The name of the scene's content: equal scenes, equal text (32 hex digits).

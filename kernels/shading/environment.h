@@ -47,7 +47,8 @@ TRIAD_FUNCTION float4 environment_texel(const Scene* scene, const Environment* e
 }
 
 /* Radiance at map coordinates, bilinear; *pdf: solid-angle density of environment_sample there. */
-TRIAD_FUNCTION_PER_CALL float3 environment_lookup(const Scene* scene, const Environment* e, float2 uv, float* pdf) {
+TRIAD_FUNCTION_PER_CALL float3 environment_lookup(const Scene* scene, const Environment* e, float2 uv,
+                                                  float* pdf) {
     const float x = uv.x * (float)e->width - 0.5f, y = uv.y * (float)e->height - 0.5f;
     const float fx = math_floor(x), fy = math_floor(y);
     const int w = (int)e->width, h = (int)e->height;

@@ -6,9 +6,9 @@
 #include <cstring>
 #include <filesystem>
 
-#include "measure/tune.h"
 #include "check/tracer.h"
 #include "device_fixture.h"
+#include "measure/tune.h"
 
 using namespace triad;
 using namespace triad::traversal_case;
