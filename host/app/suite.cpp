@@ -20,24 +20,24 @@ struct SuiteScene {
 // scenes/suite/README.md says what each is there for. Exposure changes only what is looked at: the PNG, and
 // with it FLIP.
 const SuiteScene scenes[] = {
-    {"built-in", 28.4, "", "", {"--size", "320x180"}},
-    {"cornell", 121, "cornell/cornell.gltf", "", {"--size", "240x240"}},
+    {"built-in", 20.8, "", "", {"--size", "320x180"}},
+    {"cornell", 119, "cornell/cornell.gltf", "", {"--size", "240x240"}},
     {"knot",
-     118,
+     169,
      "suite/knot.glb",
      "suite/sky.hdr",
      {"--size", "320x180", "--env-strength", "1.7", "--env-rotate", "60"}},
-    {"metals", 8.7, "suite/metals.glb", "suite/sky.hdr", {"--size", "320x180", "--env-strength", "0.35"}},
-    {"glass", 1.66, "suite/glass.glb", "", {"--size", "320x180", "--exposure", "0.6"}},
-    {"plates", 12.7, "suite/plates.glb", "", {"--size", "320x180", "--exposure", "0.5"}},
+    {"metals", 12.9, "suite/metals.glb", "suite/sky.hdr", {"--size", "320x180", "--env-strength", "0.35"}},
+    {"glass", 3.49, "suite/glass.glb", "", {"--size", "320x180", "--exposure", "0.6"}},
+    {"plates", 25.8, "suite/plates.glb", "", {"--size", "320x180", "--exposure", "0.5"}},
     {"lamps",
-     3.51,
+     6.83,
      "suite/lamps.glb",
      "suite/sky.hdr",
      {"--size", "320x180", "--env-strength", "0.03", "--exposure", "1.5"}},
-    {"garden", 14.1, "suite/garden.glb", "suite/sky.hdr", {"--size", "320x180", "--exposure", "-0.4"}},
-    {"rotunda", 7.88, "suite/rotunda.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "-0.7"}},
-    {"corridor", 2.39, "suite/corridor.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "1.8"}},
+    {"garden", 31.9, "suite/garden.glb", "suite/sky.hdr", {"--size", "320x180", "--exposure", "-0.4"}},
+    {"rotunda", 9.24, "suite/rotunda.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "-0.7"}},
+    {"corridor", 5.71, "suite/corridor.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "1.8"}},
 };
 
 }  // namespace
