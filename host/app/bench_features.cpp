@@ -43,12 +43,12 @@ void print_header(const DeviceInfo& device) {
     std::printf(
         "Rendering time against the feature left out; seconds to compile; rays per sample against it left "
         "out\n");
-    std::printf("%-17s %-27s %7s  %-27s %6s\n", "feature", "compiled in, not used", "compile", "used",
+    std::printf("%-19s %-27s %7s  %-27s %6s\n", "feature", "compiled in, not used", "compile", "used",
                 "rays");
 }
 
 void print(const FeatureCost& c) {
-    std::printf("%-17s %-27s %7.2f  ", c.feature.c_str(), per_cent(c.unused).c_str(),
+    std::printf("%-19s %-27s %7.2f  ", c.feature.c_str(), per_cent(c.unused).c_str(),
                 c.unused.compile_seconds);
     if (c.used)
         std::printf("%-27s %6.2f", per_cent(*c.used).c_str(),
