@@ -20,24 +20,24 @@ struct SuiteScene {
 // scenes/suite/README.md says what each is there for. Exposure changes only what is looked at: the PNG, and
 // with it FLIP.
 const SuiteScene scenes[] = {
-    {"built-in", 20.8, "", "", {"--size", "320x180"}},
-    {"cornell", 119, "cornell/cornell.gltf", "", {"--size", "240x240"}},
+    {"built-in", 47.8, "", "", {"--size", "320x180"}},
+    {"cornell", 250, "cornell/cornell.gltf", "", {"--size", "240x240"}},
     {"knot",
-     169,
+     378,
      "suite/knot.glb",
      "suite/sky.hdr",
      {"--size", "320x180", "--env-strength", "1.7", "--env-rotate", "60"}},
-    {"metals", 12.9, "suite/metals.glb", "suite/sky.hdr", {"--size", "320x180", "--env-strength", "0.35"}},
-    {"glass", 3.49, "suite/glass.glb", "", {"--size", "320x180", "--exposure", "0.6"}},
-    {"plates", 25.8, "suite/plates.glb", "", {"--size", "320x180", "--exposure", "0.5"}},
+    {"metals", 26.9, "suite/metals.glb", "suite/sky.hdr", {"--size", "320x180", "--env-strength", "0.35"}},
+    {"glass", 7.36, "suite/glass.glb", "", {"--size", "320x180", "--exposure", "0.6"}},
+    {"plates", 52.8, "suite/plates.glb", "", {"--size", "320x180", "--exposure", "0.5"}},
     {"lamps",
-     6.83,
+     13.4,
      "suite/lamps.glb",
      "suite/sky.hdr",
      {"--size", "320x180", "--env-strength", "0.03", "--exposure", "1.5"}},
-    {"garden", 31.9, "suite/garden.glb", "suite/sky.hdr", {"--size", "320x180", "--exposure", "-0.4"}},
-    {"rotunda", 9.24, "suite/rotunda.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "-0.7"}},
-    {"corridor", 5.71, "suite/corridor.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "1.8"}},
+    {"garden", 67.4, "suite/garden.glb", "suite/sky.hdr", {"--size", "320x180", "--exposure", "-0.4"}},
+    {"rotunda", 19.9, "suite/rotunda.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "-0.7"}},
+    {"corridor", 11.5, "suite/corridor.glb", "suite/sun.hdr", {"--size", "320x180", "--exposure", "1.8"}},
 };
 
 }  // namespace
