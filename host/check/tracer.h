@@ -47,9 +47,14 @@ inline void set_rows(const dmat4& m, float rows[12]) {
         for (int column = 0; column < 4; ++column) rows[row * 4 + column] = float(m[column][row]);
 }
 
-/// A world on the device.
+/// Trees on the device.
 class Tracer {
   public:
+    Tracer(Device& device, const BvhPool& pool, const std::vector<dev::Instance>& instances,
+           std::uint32_t root, const Options& options = {})
+        : device_(device) {
+        upload(pool, instances, root, options);
+    }
     Tracer(Device& device, const World& world, const Options& options = {}) : device_(device) {
         BvhPool pool;
         std::vector<std::uint32_t> roots(world.meshes.size());
@@ -86,11 +91,8 @@ class Tracer {
             set_rows(glm::inverse(to_world), instances[i + 1].to_object);
             instances[i + 1].root = roots[mesh];
         }
-        root_ = build_bvh(world.meshes[0], boxes, world.origin_reach, pool);
-        nodes_ = device_.upload(pool.nodes);
-        blocks_ = device_.upload(pool.blocks);
-        instances_ = device_.upload(instances);
-        program_ = device_.build("traversal/intersect.cl", options);
+        const std::uint32_t root = build_bvh(world.meshes[0], boxes, world.origin_reach, pool);
+        upload(pool, instances, root, options);
     }
 
     std::vector<dev::Hit> closest(const std::vector<dev::Ray>& rays) const {
@@ -101,6 +103,15 @@ class Tracer {
     }
 
   private:
+    void upload(const BvhPool& pool, const std::vector<dev::Instance>& instances, std::uint32_t root,
+                const Options& options) {
+        nodes_ = device_.upload(pool.nodes);
+        blocks_ = device_.upload(pool.blocks);
+        instances_ = device_.upload(instances);
+        root_ = root;
+        program_ = device_.build("traversal/intersect.cl", options);
+    }
+
     template <class Result>
     std::vector<Result> trace(const char* kernel, const std::vector<dev::Ray>& rays) const {
         const Buffer in = device_.upload(rays), out = device_.allocate(rays.size() * sizeof(Result));

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "bvh/bvh.h"
+#include "check/tracer.h"
 #include "double_tracer.h"
 #include "hard_scene.h"
 #include "kernels/types.h"
@@ -188,40 +189,6 @@ TEST_F(Hard, the_terminator_is_where_faces_and_normals_say) {
     EXPECT_GT(compared, 1000u);
 }
 
-/// The packed scene on the device, as pictures trace it.
-class PackedTracer {
-  public:
-    PackedTracer(Device& device, const PackedScene& packed)
-        : device_(device),
-          nodes_(device.upload(packed.bvh.nodes)),
-          blocks_(device.upload(packed.bvh.blocks)),
-          instances_(device.upload(packed.instance_table)),
-          root_(packed.root),
-          program_(device.build("traversal/intersect.cl")) {}
-
-    std::vector<dev::Hit> closest(const std::vector<dev::Ray>& rays) const {
-        const Buffer in = device_.upload(rays), out = device_.allocate(rays.size() * sizeof(dev::Hit));
-        device_.run(program_.kernel("intersect_closest"),
-                    Arguments()
-                        .add(nodes_)
-                        .add(blocks_)
-                        .add(instances_)
-                        .add(root_)
-                        .add(in)
-                        .add(out)
-                        .add(std::uint32_t(rays.size())),
-                    rays.size());
-        device_.finish();
-        return device_.download<dev::Hit>(out);
-    }
-
-  private:
-    Device& device_;
-    Buffer nodes_, blocks_, instances_;
-    std::uint32_t root_;
-    Program program_;
-};
-
 TEST_F(Hard, a_hundred_million_triangles_are_hit_where_they_are) {
     const Scene scene = load("hundred_million");
     std::size_t placed = 0;
@@ -252,7 +219,8 @@ TEST_F(Hard, a_hundred_million_triangles_are_hit_where_they_are) {
         ray.skip_instance = ray.skip_primitive = TRIAD_NONE;
         rays.push_back(ray);
     }
-    const std::vector<dev::Hit> hits = PackedTracer(test_device(), packed).closest(rays);
+    const std::vector<dev::Hit> hits =
+        traversal_case::Tracer(test_device(), packed.bvh, packed.instance_table, packed.root).closest(rays);
     std::size_t compared = 0, wrong = 0;
     double worst = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
