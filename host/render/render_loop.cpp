@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include "render/adaptive.h"
 #include "render/renderer_state.h"
@@ -100,19 +101,20 @@ class RenderLoop {
     }
 
     /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
-    /// which leaves sets uneven: only where sampling is adaptive, and not before every pixel has a sample.
+    /// which leaves sets uneven, and never happens before every pixel has a sample.
     bool pass(const SetSamples& wanted, unsigned run) {
         const auto bins = unsigned(s_.film.bins());  // each gets as many samples, wherever a render is cut
         run = std::max(run / bins, 1u) * bins;
-        const bool may_be_cut = goal_.adaptive && least() > 0;
+        const bool may_be_cut = least() > 0 && schedule_.may_end_within_sample(samples(), seconds());
         const double pace = total_ > 0 ? seconds() / double(total_) : 0;
-        if (!goal_.adaptive &&
-            pace > 0) {  // even passes end with whole samples, the last one at the time asked for
-            const double fit = schedule_.time_left(seconds()) / (pace * double(s_.film.pixels()));
-            run = bins * unsigned(std::clamp(std::round(fit / bins), 1.0, double(run / bins)));
+        if (!goal_.adaptive && pace > 0) {  // even passes: the last one ends at the time asked for
+            const double fit = schedule_.time_left(seconds()) / (pace * double(s_.film.pixels())) / bins;
+            const double whole = may_be_cut ? std::floor(fit) : std::round(fit);
+            run = bins * unsigned(std::clamp(whole, 1.0, double(run / bins)));
         }
         std::vector<dev::TileWork> work;
-        for (std::size_t t = 0; t < s_.tiles; ++t) {
+        for (std::size_t i = 0; i < s_.tiles; ++i) {
+            const std::size_t t = may_be_cut ? scattered(i) : i;
             dev::TileWork w{std::uint32_t(t), {have_[2 * t], have_[2 * t + 1]}, {}, {}};
             for (std::size_t set = 0; set < 2; ++set)
                 w.sample_count[set] = std::min(wanted[2 * t + set] - have_[2 * t + set], run);
@@ -124,6 +126,14 @@ class RenderLoop {
             first += launch(work, first, may_be_cut);
         }
         return true;
+    }
+
+    /// The tiles in an order whose every beginning is spread over the picture: a pass that is cut favours no
+    /// part of it. Steps of the golden ratio, made coprime to the number of tiles.
+    std::size_t scattered(std::size_t i) const {
+        std::size_t step = std::max<std::size_t>(1, std::size_t(double(s_.tiles) * 0.6180339887498949));
+        while (std::gcd(step, s_.tiles) != 1) ++step;
+        return i * step % s_.tiles;
     }
 
     /// Samples that a tile's work adds up to.

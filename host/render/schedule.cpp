@@ -13,6 +13,8 @@ constexpr double growth = 2.0;
 constexpr double sure_step = 1.3;
 /// An estimate this close above the requested error has reached it; its own scatter is of that size.
 constexpr double reached = 1.02;
+/// Of the time asked for: what an even render may miss it by to end after whole samples.
+constexpr double missable = 0.02;
 
 }  // namespace
 
@@ -88,9 +90,16 @@ double Schedule::pace(double samples, double seconds) const {
     return done > 0 ? (seconds - round_began_seconds_) / done : seconds / samples;
 }
 
+bool Schedule::may_end_within_sample(double samples, double seconds) const {
+    if (goal_.adaptive) return true;
+    return goal_.seconds > 0 && samples > 0 &&
+           0.5 * bins_ * pace(samples, seconds) > missable * goal_.seconds;
+}
+
 bool Schedule::time_is_up(double samples, double seconds) const {
     if (goal_.seconds <= 0 || !(samples > 0)) return false;
-    const double close = goal_.adaptive ? 0.005 * goal_.seconds : 0.5 * bins_ * pace(samples, seconds);
+    const double close = may_end_within_sample(samples, seconds) ? 0.005 * goal_.seconds
+                                                                 : 0.5 * bins_ * pace(samples, seconds);
     return time_left(seconds) <= close;
 }
 

@@ -59,8 +59,11 @@ class Schedule {
 
     /// Until the time that was asked for is over; infinite when none was.
     double time_left(double seconds) const;
-    /// Time to stop: adaptive renders end anywhere, even ones after whole samples, closest to the time asked
-    /// for.
+    /// Whether the render may end within a sample, on part of the picture: where sampling is adaptive, and
+    /// where whole samples take so long that ending after one would miss the time asked for.
+    bool may_end_within_sample(double samples, double seconds) const;
+    /// Time to stop: within a sample if that is allowed, or else after the whole sample that is closest to
+    /// the time asked for.
     bool time_is_up(double samples, double seconds) const;
 
     /// Until the error asked for is reached, at the pace so far; negative: none was, or not known yet.

@@ -83,8 +83,9 @@ Film merge(std::span<const Film> parts) {
         if (parts.size() > 1 && !part.is_even())
             throw Error(
                 Exit::scene,
-                "The films cannot be merged: one was sampled adaptively, so that its pixels hold different "
-                "numbers of samples. Render parts of a picture with --samples, or with --adaptive off.");
+                "The films cannot be merged: the pixels of one hold different numbers of samples (it was "
+                "sampled adaptively, or --time ended it within a sample). Render parts of a picture with "
+                "--samples, or with --spp and --adaptive off.");
     std::vector<SampleRange> ranges = whole.ranges;
     for (const Film& part : parts.subspan(1)) {
         check_same_picture(whole, part);

@@ -15,6 +15,21 @@ Film render_to(Device& device, const RenderSettings& settings, const RenderGoal&
     return renderer.film();
 }
 
+/// Every pixel of the film holds the very samples that an even render of as many has.
+void expect_first_samples(const RenderSettings& settings, const Film& film) {
+    const std::size_t bins = film.bins();
+    for (const std::uint32_t n : {film.sample_numbers().least, film.sample_numbers().most}) {
+        const Film even = render_to(test_device(), settings, {.samples = {0, n}});
+        for (std::size_t p = 0; p < film.pixels(); ++p) {
+            if (film.samples[p] != n) continue;
+            for (std::size_t i = 0; i < 4 * bins; ++i)
+                ASSERT_EQ(film.sums[p * 4 * bins + i], even.sums[p * 4 * bins + i]) << p;
+            for (std::size_t c = 0; c < 3; ++c)
+                ASSERT_EQ(film.half_sums[p * 3 + c], even.half_sums[p * 3 + c]) << p;
+        }
+    }
+}
+
 TEST(RenderGoal, an_error_is_reached_by_the_same_samples_on_every_work_group_size_and_thread) {
     Device& device = test_device();
     const std::size_t before = device.preferred_local();
@@ -40,18 +55,19 @@ TEST(RenderGoal, a_pixel_with_n_samples_holds_the_first_n_however_it_came_to_the
         const Film film = render_to(test_device(), settings, {.samples = {0, 40}, .adaptive = true});
         ASSERT_FALSE(film.is_even());
         EXPECT_NEAR(film.sample_numbers().mean, 40, 1);
-        const std::vector<std::uint32_t> counts{film.sample_numbers().least, film.sample_numbers().most};
-        for (const std::uint32_t n : counts) {
-            const Film even = render_to(test_device(), settings, {.samples = {0, n}});
-            for (std::size_t p = 0; p < film.pixels(); ++p) {
-                if (film.samples[p] != n) continue;
-                for (std::size_t i = 0; i < 4 * bins; ++i)
-                    ASSERT_EQ(film.sums[p * 4 * bins + i], even.sums[p * 4 * bins + i]) << p;
-                for (std::size_t c = 0; c < 3; ++c)
-                    ASSERT_EQ(film.half_sums[p * 3 + c], even.half_sums[p * 3 + c]) << p;
-            }
-        }
+        expect_first_samples(settings, film);
     }
+}
+
+TEST(RenderGoal, an_even_render_that_time_ends_within_a_sample_has_one_more_of_some_pixels) {
+    RenderSettings settings = analytic::varied_settings();
+    settings.width = settings.height = 512;
+    settings.bins_x = 2;
+    const Film film = render_to(test_device(), settings, {.samples = {0, 4096}, .seconds = 0.7});
+    const SampleNumbers n = film.sample_numbers();
+    EXPECT_GE(n.least, 2u);
+    EXPECT_LE(n.most, n.least + 2);
+    expect_first_samples(settings, film);
 }
 
 TEST(RenderGoal, a_time_that_ends_within_a_pass_leaves_a_film_that_counts_right) {

@@ -40,8 +40,9 @@ Outcome follow(const RenderGoal& goal, Picture picture) {
     Outcome o;
     while (const auto end = schedule.next_round(o.samples, o.seconds)) {
         EXPECT_GT(*end, o.samples);
-        const double pass = goal.adaptive && o.samples >= 1 ? 0.01 : 1.0;
         while (o.samples < *end - 1e-9 && !schedule.time_is_up(o.samples, o.seconds)) {
+            const bool cut = o.samples >= 1 && schedule.may_end_within_sample(o.samples, o.seconds);
+            const double pass = cut ? 0.01 : 1.0;
             const double next = std::min(o.samples + pass, *end);
             o.seconds += picture.seconds(o.samples, next);
             o.samples = next;
@@ -106,13 +107,22 @@ TEST(Schedule, the_time_asked_for_is_used_and_not_exceeded) {
         }
 }
 
-TEST(Schedule, even_passes_end_at_the_whole_sample_closest_to_the_time) {
-    for (const double seconds : {0.34, 0.36, 1.0, 7.77, 100.0}) {
+TEST(Schedule, even_renders_end_after_whole_samples_where_that_misses_the_time_by_little) {
+    for (const double seconds : {2.51, 7.77, 100.0}) {
         const Outcome o = follow({.samples = {0, no_limit}, .seconds = seconds}, {});
         EXPECT_EQ(o.stop, Stop::time);
         EXPECT_LE(std::abs(o.seconds - seconds), 0.05 + 1e-9) << seconds;
         EXPECT_EQ(o.samples, std::round(o.samples));
     }
+}
+
+TEST(Schedule, even_renders_of_few_samples_end_within_one) {
+    for (const double slower : {-0.5, 0.0, 2.0})
+        for (const double seconds : {0.14, 0.36, 1.05, 2.3}) {
+            const Outcome o = follow({.samples = {0, no_limit}, .seconds = seconds}, {.slower = slower});
+            EXPECT_EQ(o.stop, Stop::time);
+            EXPECT_NEAR(o.seconds, seconds, 0.05 * seconds) << slower;
+        }
 }
 
 TEST(Schedule, a_time_shorter_than_one_sample_gives_one_sample) {
