@@ -4,7 +4,7 @@
 /// Images", with its constants).
 #include <vector>
 
-#include "measure/reference_error.h"
+#include "base/rgb_image.h"
 
 namespace triad {
 

@@ -6,15 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "base/rgb_image.h"
 #include "scene/film.h"
 
 namespace triad {
-
-/// Interleaved R, G, B, row by row.
-struct RgbImage {
-    unsigned width = 0, height = 0;
-    std::vector<float> rgb;
-};
 
 /// A reference as it is measured with.
 struct Reference {

@@ -1,0 +1,33 @@
+#pragma once
+/// Taps for a panel: the drives whose light, as the eye sees it, is nearest to the picture's
+/// (docs/subpixel.md).
+#include "panel/panel.h"
+#include "panel/taps.h"
+
+namespace triad {
+
+/// How taps are designed. The eye is S-CIELAB's.
+struct TapDesign {
+    unsigned bins_x = 3, bins_y = 3;  ///< of the film, per pixel; 1 to 16
+    bool cross_colour = false;        ///< nine filters instead of three: each output sees R, G and B
+    double radius =
+        1.5;  ///< px: bins whose centre is at most this far, along x and along y, from the emitter
+    bool separable = false;  ///< three filters as products of their sums over columns and rows
+};
+
+/// The taps that minimise the expected perceived error, each with its exact sum of 1. The full pixel's box
+/// where the panel's advice asks for that, and for channels that feed no emitter in their pixel. Throws
+/// Error(usage) for ppd outside of [5, 1000] or bins that are too many.
+TapTable design_taps(const Panel& panel, double ppd, const TapDesign& design = {});
+
+/// The box of one pixel around the light of each output: the best taps that are nowhere negative, nearly.
+TapTable displaced_box_taps(const Panel& panel, unsigned bins_x = 3, unsigned bins_y = 3);
+
+/// The box of the pixel, moved by `shift` px.
+TapTable full_pixel_taps(unsigned bins_x, unsigned bins_y, const dvec2& shift = dvec2(0));
+
+/// The quadratic form of the perceived error in the drives, for the bounded refinement. Only 0 where the
+/// advice is the full pixel.
+RefineStencil design_refine(const Panel& panel, double ppd);
+
+}  // namespace triad
