@@ -25,6 +25,27 @@ TRIAD_FUNCTION float light_triangle_inverse_pdf(const Light* light, float invers
 }
 
 #if TRIAD_TRIANGLE_LIGHTS
+/* What a triangle emits at barycentric weights b of its corners 1 and 2. */
+TRIAD_FUNCTION float3 light_triangle_radiance(const Scene* scene, const Light* light, float2 b) {
+    float3 radiance = (float3)(light->colour[0], light->colour[1], light->colour[2]);
+#if TRIAD_TEXTURES
+    const Triangle t = scene->triangles[light->primitive];
+    const Geometry g = scene->geometries[t.geometry];
+    global const Material* m = scene->materials + g.material;
+    if (m->emission_use != TRIAD_NONE) {
+        float2 uv0, uv1;
+        float4 colour;
+        surface_attributes(scene, &g, &t, b.x, b.y, &uv0, &uv1, &colour);
+        radiance = surface_emission(scene, m, uv0, uv1);
+    }
+#endif
+#if TRIAD_ALPHA_TEST
+    /* Rays end short of the light, or begin beyond it: none asks for the coverage of the light itself. */
+    radiance *= surface_coverage(scene, light->primitive, b.x, b.y);
+#endif
+    return radiance;
+}
+
 TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light, float3 p, float2 u,
                                          LightSample* s) {
     const float2 b = sampling_triangle(u);
@@ -41,22 +62,7 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
         n = -n;
     }
     if (!(cosine > 0.0f) || !math_is_finite(inverse_distance2)) return 0;
-    float3 radiance = (float3)(light->colour[0], light->colour[1], light->colour[2]);
-#if TRIAD_TEXTURES
-    const Triangle t = scene->triangles[light->primitive];
-    const Geometry g = scene->geometries[t.geometry];
-    global const Material* m = scene->materials + g.material;
-    if (m->emission_use != TRIAD_NONE) {
-        float2 uv0, uv1;
-        float4 colour;
-        surface_attributes(scene, &g, &t, b.x, b.y, &uv0, &uv1, &colour);
-        radiance = surface_emission(scene, m, uv0, uv1);
-    }
-#endif
-#if TRIAD_ALPHA_TEST
-    /* The shadow ray ends short of the light, so that no ray asks for the coverage of the light itself. */
-    radiance *= surface_coverage(scene, light->primitive, b.x, b.y);
-#endif
+    const float3 radiance = light_triangle_radiance(scene, light, b);
     s->inverse_pdf = light_triangle_inverse_pdf(light, inverse_distance2, cosine);
     s->weight = radiance * s->inverse_pdf;
     /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */

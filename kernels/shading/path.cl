@@ -2,14 +2,12 @@
  * Unidirectional paths with next-event estimation, multiple importance sampling and Russian roulette. */
 #include "common/language.h"
 
-#include "common/frame.h"
 #include "common/random.h"
-#include "shading/bsdf.h"
 #include "shading/coverage.h"
 #include "shading/light.h"
 #include "shading/record.h"
 #include "shading/sample.h"
-#include "shading/vertex.h"
+#include "shading/vertex_bsdf.h"
 #include "subpixel/film.h"
 #include "traversal/traverse.h"
 
@@ -45,9 +43,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
     int specular = 1; /* only delta events so far */
     float body_scale =
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
+    Bodies bodies = (uint4)(TRIAD_NONE); /* that the path is in */
 #if TRIAD_TRANSMISSION
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
-    Bodies bodies = (uint4)(TRIAD_NONE);                                 /* that the path is in */
 #endif
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
@@ -99,6 +97,8 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         if (bodies.s0 != TRIAD_NONE)
             throughput *= vertex_transmittance(scene->materials + bodies.s0, math_length(s.position - from));
         from = s.position;
+#else
+        const Bodies beyond = bodies;
 #endif
 #if TRIAD_UNLIT
         if (flags &
@@ -133,35 +133,15 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             break;
         }
 
-        BsdfInput input;
-        input.base_colour = s.base_colour;
-        input.metallic = s.metallic;
-        input.roughness = s.roughness;
-        input.ior = material->ior;
-        input.specular = s.specular;
-        input.specular_colour = s.specular_colour;
-        input.transmission = s.transmission;
-        input.solid = (flags & MATERIAL_SOLID) != 0u;
-        input.inside = (uint)(back && (flags & MATERIAL_SOLID));
-#if TRIAD_TRANSMISSION
-        if (solid != TRIAD_NONE &&
-            material->ior >= 1.0f) { /* against what is around: from the denser side it is seen */
-            const float here = bodies_index(scene, bodies), there = bodies_index(scene, beyond);
-            input.inside = there < here;
-            input.ior = input.inside ? here / there : there / here;
-        }
-#endif
-        const float mirror = fma(1.0f - s.metallic, s.transmission, s.metallic);
-        const float3 ns = vertex_shading_normal(back ? -s.shading_normal : s.shading_normal, ng, wo, mirror);
-        const ShadingFrame around = frame_make(ns);
-        const float3 wo_local = frame_to_local(&around, wo);
-        const Bsdf bsdf = bsdf_make(&input, wo_local, scene->albedo);
+        const VertexBsdf vertex = vertex_bsdf(scene, &s, wo, ng, back, bodies, beyond);
+        const float3 wo_local = vertex.wo;
+        const Bsdf bsdf = vertex.bsdf;
 
         if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
             LightSample light;
             if (light_sample(scene, s.position, u.x.s2, (uint2)(u.x.s3, u.y.s3), &light)) {
                 const float side = math_dot(light.direction, ng);
-                const float3 wi = frame_to_local(&around, light.direction);
+                const float3 wi = frame_to_local(&vertex.frame, light.direction);
                 /* the shading normal must not move light through the surface */
                 int lit = side * wi.z > 0.0f;
 #if TRIAD_ENVIRONMENT_MAP
@@ -201,7 +181,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const BsdfSample sample = bsdf_sample(&bsdf, wo_local, random_float(u.x.s1),
                                               (float2)(random_float(u.x.s0), random_float(u.y.s0)));
         if (sample.event == BSDF_NONE) break;
-        const float3 direction = frame_to_world(&around, sample.wi);
+        const float3 direction = frame_to_world(&vertex.frame, sample.wi);
         const float side = math_dot(direction, ng);
         if (!(side * sample.wi.z > 0.0f)) break;
         throughput *= sample.weight;

@@ -24,18 +24,18 @@ TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, float3 normal, const Hit* h
     return ray;
 }
 
+/* The bodies that a path is in, as materials: the one that it entered last comes first, TRIAD_NONE where
+ * there is none. What fills the space is the first; the surface of another is passed as if it were not there.
+ * So a body within another refracts against that one, and bodies that overlap meet without air between them.
+ */
+typedef uint4 Bodies;
+
 #if TRIAD_TRANSMISSION
 /* What a body lets through over a distance (Beer-Lambert). */
 TRIAD_FUNCTION float3 vertex_transmittance(global const Material* body, float distance) {
     return (float3)(math_exp(-body->absorption[0] * distance), math_exp(-body->absorption[1] * distance),
                     math_exp(-body->absorption[2] * distance));
 }
-
-/* The bodies that a path is in, as materials: the one that it entered last comes first, TRIAD_NONE where
- * there is none. What fills the space is the first; the surface of another is passed as if it were not there.
- * So a body within another refracts against that one, and bodies that overlap meet without air between them.
- */
-typedef uint4 Bodies;
 
 TRIAD_FUNCTION Bodies bodies_enter(Bodies b, uint body) { return (uint4)(body, b.s012); }
 

@@ -1,0 +1,49 @@
+/* The BSDF of a vertex, for one direction wo that a path or a photon came from or goes to. */
+#ifndef TRIAD_SHADING_VERTEX_BSDF_H
+#define TRIAD_SHADING_VERTEX_BSDF_H
+
+#include "common/frame.h"
+#include "shading/bsdf.h"
+#include "shading/vertex.h"
+
+typedef struct VertexBsdf {
+    ShadingFrame frame; /* z is the shading normal on wo's side */
+    float3 wo;          /* in the frame */
+    Bsdf bsdf;
+} VertexBsdf;
+
+/* ng: the geometric normal on wo's side. back: that is the inner side of the surface. bodies and beyond: what
+ * the path is in on wo's side and on the other. */
+TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, float3 wo, float3 ng, int back,
+                                      Bodies bodies, Bodies beyond) {
+    global const Material* material = scene->materials + s->material;
+    const uint solid = material->flags & MATERIAL_SOLID;
+    BsdfInput input;
+    input.base_colour = s->base_colour;
+    input.metallic = s->metallic;
+    input.roughness = s->roughness;
+    input.ior = material->ior;
+    input.specular = s->specular;
+    input.specular_colour = s->specular_colour;
+    input.transmission = s->transmission;
+    input.solid = solid != 0u;
+    input.inside = (uint)(back && solid);
+#if TRIAD_TRANSMISSION
+    if (solid && material->ior >= 1.0f) { /* against what is around: from the denser side it is seen */
+        const float here = bodies_index(scene, bodies), there = bodies_index(scene, beyond);
+        input.inside = there < here;
+        input.ior = input.inside ? here / there : there / here;
+    }
+#else
+    (void)bodies, (void)beyond;
+#endif
+    const float mirror = fma(1.0f - s->metallic, s->transmission, s->metallic);
+    VertexBsdf v;
+    v.frame =
+        frame_make(vertex_shading_normal(back ? -s->shading_normal : s->shading_normal, ng, wo, mirror));
+    v.wo = frame_to_local(&v.frame, wo);
+    v.bsdf = bsdf_make(&input, v.wo, scene->albedo);
+    return v;
+}
+
+#endif
