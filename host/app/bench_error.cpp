@@ -108,10 +108,10 @@ class Bench {
         for (std::size_t i = 0; i < settings_.size(); ++i) {
             const RenderOptions options = parsed(name, settings_[i]);
             if (options.scene_path != first.scene_path || options.env_path != first.env_path ||
-                options.scene_index != first.scene_index)
+                options.scene_index != first.scene_index || options.glass != first.glass)
                 throw Error(Exit::usage,
                             "Setting " + settings_[i].name +
-                                ": file, --scene and --env belong to the scene, not to a setting.");
+                                ": file, --scene, --env and --glass belong to the scene, not to a setting.");
             const OutputStyle style = options.style;
             cases.push_back({bench.settings[i], &device_of(options), settings_of(options, scene),
                              options.adaptive.value_or(false), [style](Device& device, const Film& film) {

@@ -8,6 +8,44 @@
 
 namespace triad {
 
+namespace {
+
+std::string material_names(const Scene& scene) {
+    std::string names;
+    for (const Material& m : scene.materials)
+        if (!m.name.empty()) names += (names.empty() ? "'" : ", '") + m.name + "'";
+    return names.empty() ? "none has a name" : "there are " + names;
+}
+
+}  // namespace
+
+void apply_glass(Scene& scene, const std::string& text) {
+    const std::size_t split = text.rfind('=');
+    if (split == std::string::npos || split == 0 || split + 1 == text.size())
+        throw Error(Exit::usage, "--glass " + text + ": expected MATERIAL=NAME.");
+    const std::string material = text.substr(0, split), name = text.substr(split + 1);
+    const std::optional<Dispersion> glass = find_glass(name);
+    if (!glass)
+        throw Error(Exit::usage, "--glass " + text + ": there is no glass '" + name + "'; there are " +
+                                     glass_names() + ".");
+    bool found = false;
+    for (Material& m : scene.materials) {
+        if (m.name != material) continue;
+        found = true;
+        if (!(m.transmission > 0.0f && m.thickness > 0.0f))
+            throw Error(Exit::usage,
+                        "--glass " + text +
+                            ": the material is no solid body that transmits "
+                            "(KHR_materials_transmission and KHR_materials_volume with a thickness "
+                            "above 0).");
+        m.dispersion = glass;
+        m.ior = static_cast<float>(glass->index(line_d));
+    }
+    if (!found)
+        throw Error(Exit::usage, "--glass " + text + ": no material that is drawn has that name; " +
+                                     material_names(scene) + ".");
+}
+
 Scene load_scene(const RenderOptions& o) {
     Scene scene;
     if (o.scene_path.empty()) {
@@ -17,6 +55,7 @@ Scene load_scene(const RenderOptions& o) {
         scene = load_gltf(o.scene_path, {o.scene_index}, &report);
         for (const std::string& warning : report.warnings) warn(warning);
     }
+    for (const std::string& text : o.glass) apply_glass(scene, text);
     if (const std::size_t dropped = validate(scene))
         detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
     if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);

@@ -11,6 +11,9 @@ namespace triad {
 /// Warnings are logged. Throws Error(scene), Error(unsupported).
 Scene load_scene(const RenderOptions& options);
 
+/// "MATERIAL=NAME": every material of that name becomes that glass. Throws Error(usage).
+void apply_glass(Scene& scene, const std::string& text);
+
 /// What decides the picture, the view chosen. Throws Error(usage) for a pixel outside it.
 RenderSettings settings_of(const RenderOptions& options, const Scene& scene);
 

@@ -122,6 +122,13 @@ void declare(CLI::App& command, RenderOptions& o) {
         ->type_name("D")
         ->group(view_group);
 
+    command
+        .add_option("--glass", o.glass,
+                    "Make this material of the file that glass of the catalogue (docs/spectral.md); several "
+                    "allowed")
+        ->type_name("MATERIAL=NAME")
+        ->allow_extra_args(false)
+        ->group(light_group);
     CLI::Option* env = command.add_option("--env", o.env_path, "Lat-long environment, .hdr or .exr")
                            ->type_name("FILE")
                            ->group(light_group);

@@ -39,6 +39,7 @@ struct RenderOptions {
     std::optional<double> fov;  ///< vertical, degrees
     std::optional<double> aperture, focus;
 
+    std::vector<std::string> glass;  ///< MATERIAL=NAME
     std::string env_path;
     double env_rotate = 0;  ///< degrees
     double env_strength = 1;

@@ -21,10 +21,10 @@ constexpr std::uint64_t budget_per_byte =
     64;  // an 8-bit index of a strip becomes three 32-bit ones; buffers may be shared
 
 const std::set<std::string> supported{
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp", "KHR_lights_punctual", "KHR_materials_emissive_strength",
-    "KHR_materials_ior", "KHR_materials_specular", "KHR_materials_transmission", "KHR_materials_unlit",
-    "KHR_materials_variants", "KHR_materials_volume", "KHR_mesh_quantization", "KHR_node_visibility",
-    "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing", "EXT_texture_webp", "KHR_lights_punctual", "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
+    "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
+    "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform",
     // These say nothing about the picture.
     "KHR_interactivity", "KHR_node_hoverability", "KHR_node_selectability", "KHR_xmp", "KHR_xmp_json_ld"};
 
@@ -154,7 +154,14 @@ void strip(json& document) {
          {"nodes", "meshes", "materials", "accessors", "bufferViews", "scenes", "cameras"}) {
         const auto found = document.find(list);
         if (found == document.end()) continue;
-        for (json& element : *found) element.erase("extras");
+        for (json& element : *found) {
+            const auto extras = element.find("extras");
+            if (extras == element.end()) continue;
+            if (std::string_view(list) == "materials" && extras->is_object() && extras->contains("triad"))
+                *extras = {{"triad", (*extras)["triad"]}};  // gltf_extras.h
+            else
+                element.erase(extras);
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/parallel_for.h"
+#include "io/gltf_extras.h"
 
 namespace triad::gltf {
 namespace {
@@ -189,6 +190,9 @@ Material Materials::convert(int index) {
     if (const Value* e = find(source.extensions, "KHR_materials_ior")) {
         const double ior = number(*e, "ior", 1.5);
         if (ior != 0.0 && ior < 1.0) file_.warn(what + " has an ior below 1, which is taken as 1.");
+        if (ior > Dispersion::most_index)
+            file_.warn(what +
+                       " has an ior above 10, which no transparent material has; it is used as it is.");
         m.ior = ior == 0.0 ? 0.0f : float(std::max(ior, 1.0));
     }
     if (const Value* e = find(source.extensions, "KHR_materials_specular")) {
@@ -206,6 +210,20 @@ Material Materials::convert(int index) {
         m.attenuation_colour = glm::clamp(colour(*e, "attenuationColor", vec3(1.0f)), 0.0f, 1.0f);
         const double distance = number(*e, "attenuationDistance", 0.0);
         if (distance > 0.0) m.attenuation_distance = float(distance);
+    }
+    if (const Value* e = find(source.extensions, "KHR_materials_dispersion"))
+        if (const double dispersion = number(*e, "dispersion", 0.0); dispersion > 0.0) {
+            if (m.ior == 0.0f)
+                file_.warn(what + " has a dispersion, but an ior of 0 lets no light in; it is left out.");
+            else
+                m.dispersion = abbe_dispersion(m.ior, dispersion);
+        }
+    apply_material_extras(source.extras, what, m, [this](const std::string& s) { file_.warn(s); });
+    if (m.dispersion && !(m.transmission > 0.0f && m.thickness > 0.0f)) {
+        file_.warn(what +
+                   " has a dispersion, but is no solid body that transmits (KHR_materials_transmission and "
+                   "KHR_materials_volume with a thickness above 0); it is left out.");
+        m.dispersion.reset();
     }
     return m;
 }

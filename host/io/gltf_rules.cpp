@@ -134,6 +134,7 @@ const Rule document[] = {
     {"materials[].pbrMetallicRoughness.roughnessFactor", Kind::number},
     {"materials[].extensions", Kind::object},
     {"materials[].extensions{}", Kind::object},
+    {"materials[].extensions.KHR_materials_dispersion.dispersion", Kind::number, "", false, 0, 1e6},
     {"materials[].extensions.KHR_materials_emissive_strength.emissiveStrength", Kind::number, "", false, 0},
     {"materials[].extensions.KHR_materials_ior.ior", Kind::number, "", false, 0},
     {"materials[].extensions.KHR_materials_specular.specularFactor", Kind::number},

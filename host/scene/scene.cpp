@@ -29,6 +29,12 @@ void put(Hash& h, const std::optional<TextureUse>& use) {
     h.add_value(use->texture).add_value(use->uv_set).add(use->transform.data(), sizeof use->transform);
 }
 
+void put(Hash& h, const std::optional<Dispersion>& d) {
+    if (!d) return;  // scenes without keep the names they had
+    h.add_value(int(d->law)).add_value(d->a);
+    h.add(d->b.data(), sizeof d->b).add(d->c.data(), sizeof d->c);
+}
+
 template <class... Members>
 void put_all(Hash& h, const Members&... members) {
     (put(h, members), ...);
@@ -39,7 +45,8 @@ void put(Hash& h, const Material& m) {
             m.alpha_cutoff, std::uint8_t(m.double_sided), std::uint8_t(m.unlit), m.ior, m.specular,
             m.specular_colour, m.transmission, m.thickness, m.attenuation_colour, m.attenuation_distance,
             m.base_colour_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
-            m.specular_texture, m.specular_colour_texture, m.transmission_texture);
+            m.specular_texture, m.specular_colour_texture, m.transmission_texture, m.dispersion);
+    if (m.priority != 0) put(h, m.priority);
 }
 
 void put(Hash& h, const Mesh& mesh) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "scene/glass.h"
 
 namespace triad {
 
@@ -38,6 +39,9 @@ struct TextureUse {
     std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
 };
 
+/// Of a body among others: see Material::priority.
+inline constexpr unsigned most_priority = 255;
+
 enum class AlphaMode { opaque, mask, blend };
 
 /// glTF metallic-roughness and the KHR extensions of docs/conventions.md. Colour textures are decoded from
@@ -56,7 +60,10 @@ struct Material {
     float specular = 1.0f;
     vec3 specular_colour{1.0f};
     float transmission = 0.0f;
-    float thickness = 0.0f;         ///< > 0: the mesh is the surface of a solid body
+    float thickness = 0.0f;                ///< > 0: the mesh is the surface of a solid body
+    std::optional<Dispersion> dispersion;  ///< of a solid body; `ior` is then its index at the d line
+    /// Where bodies overlap, the one of the highest priority is there; of equal ones the one entered last.
+    unsigned priority = 0;
     vec3 attenuation_colour{1.0f};  ///< what is left of white light after attenuation_distance
     float attenuation_distance = std::numeric_limits<float>::infinity();
     std::optional<TextureUse> base_colour_texture;         ///< sRGB, alpha linear

@@ -67,6 +67,9 @@ void check_material(const Scene& scene, const Material& m, const std::string& wh
     require(std::isfinite(m.alpha_cutoff), what, "has an alpha cutoff that is no number");
     require(m.ior == 0.0f || (m.ior >= 1.0f && std::isfinite(m.ior)), what,
             "has an index of refraction below 1");
+    require(!m.dispersion || (m.ior >= 1.0f && m.dispersion->is_sane()), what,
+            "has a dispersion that gives an index of refraction outside 1 to 10 at some visible wavelength");
+    require(m.priority <= most_priority, what, "has a priority above 255");
     require(in_unit(m.specular) && at_least_zero(m.specular_colour), what,
             "has a specular factor out of range");
     require(in_unit(m.transmission), what, "has a transmission outside 0 to 1");

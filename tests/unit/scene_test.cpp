@@ -35,6 +35,8 @@ const std::vector<std::function<void(Scene&)>> faults{
     [](Scene& s) { s.materials[0].emission.y = -1; },
     [](Scene& s) { s.materials[0].ior = 0.5f; },
     [](Scene& s) { s.materials[0].attenuation_distance = 0; },
+    [](Scene& s) { s.materials[0].dispersion = Dispersion{Dispersion::Law::cauchy, 0, {0.9, 0.01}, {}}; },
+    [](Scene& s) { s.materials[0].priority = 256; },
     [](Scene& s) { s.materials[0].base_colour_texture->texture = 9; },
     [](Scene& s) { s.materials[0].base_colour_texture->uv_set = 2; },
     [](Scene& s) { s.meshes[0].primitives[0].material = 1; },
