@@ -64,6 +64,7 @@ Device Device::open(const Settings& settings) {
     auto state = std::make_shared<opencl::DeviceState>();
     opencl::Core& core = *state->core;
     core.info = found.info;
+    if (settings.largest_allocation > 0) core.info.max_allocation = settings.largest_allocation;
     state->profile = settings.profile;
     state->platform_version = opencl::platform_text(found.platform, CL_PLATFORM_VERSION);
     // PoCL keeps compiled kernels itself, and asking it for binaries compiles everything a second time.

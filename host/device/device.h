@@ -160,6 +160,7 @@ class Device {
         std::string selector;  ///< "", index, "cpu"/"gpu", or part of the name or platform (case ignored)
         unsigned threads = 0;  ///< CPU devices: compute units to use (0 = all)
         bool profile = false;  ///< profiling queue; see times()
+        std::size_t largest_allocation = 0;  ///< at most so many bytes in one piece (0: what the device says)
     };
 
     /// Throws Error(usage) for a selector that matches nothing usable (the sentence lists what there is),

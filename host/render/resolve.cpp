@@ -7,26 +7,11 @@
 
 #include "base/colour.h"
 #include "base/parallel_for.h"
-#include "kernels/types.h"
 
 namespace triad {
 namespace {
 
 constexpr std::size_t pixels_per_chunk = 4096;
-
-std::uint32_t code_of(ToneMap map) {
-    switch (map) {
-        case ToneMap::none:
-            return TONE_MAP_NONE;
-        case ToneMap::khronos:
-            return TONE_MAP_KHRONOS;
-        case ToneMap::aces:
-            return TONE_MAP_ACES;
-        case ToneMap::agx:
-            return TONE_MAP_AGX;
-    }
-    throw std::logic_error("no such tone map");
-}
 
 /// Rounded to the nearest of `top` + 1 steps; NaN is 0.
 unsigned quantise(double value, unsigned top) {
@@ -34,33 +19,6 @@ unsigned quantise(double value, unsigned top) {
 }
 
 }  // namespace
-
-std::vector<float> resolve_display(Device& device, const Film& film, const DisplaySettings& settings) {
-    const Kernel kernel = device.build("subpixel/resolve.cl").kernel("resolve_bins");
-    std::vector<float> display(film.pixels() * 4);
-    const std::size_t bins = film.bins();
-    const std::size_t slab = std::max<std::size_t>(1, (std::size_t(1) << 18) / bins);  // 8 MiB of sums
-    for (std::size_t first = 0; first < film.pixels(); first += slab) {
-        const std::size_t count = std::min(slab, film.pixels() - first);
-        const Buffer sums = device.upload(std::span(film.sums).subspan(first * bins * 4, count * bins * 4));
-        const Buffer samples = device.upload(std::span(film.samples).subspan(first, count));
-        const Buffer out = device.allocate(count * 4 * sizeof(float));
-        device.run(kernel,
-                   Arguments()
-                       .add(sums)
-                       .add(samples)
-                       .add(out)
-                       .add(std::uint32_t(count))
-                       .add(std::uint32_t(bins))
-                       .add(std::ldexp(1.0f, -film.quanta_log2))
-                       .add(std::exp2(settings.exposure_ev))
-                       .add(code_of(settings.tone_map))
-                       .add(std::uint32_t(settings.per_bin)),
-                   count);
-        device.read(out, display.data() + first * 4, count * 4 * sizeof(float));
-    }
-    return display;
-}
 
 std::vector<float> resolve_linear(const Film& film) {
     std::vector<float> rgba(film.pixels() * 4);

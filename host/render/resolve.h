@@ -1,10 +1,12 @@
 #pragma once
 /// From the film to pixels that can be shown or saved.
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/math.h"
 #include "device/device.h"
+#include "panel/taps.h"
 #include "scene/film.h"
 
 namespace triad {
@@ -12,16 +14,43 @@ namespace triad {
 /// docs/film.md names the source of each curve.
 enum class ToneMap { none, khronos, aces, agx };
 
+/// When the pipeline from bins to pixels maps tones.
+enum class ToneOrder {
+    per_pixel,       ///< what the taps have added up: radiance
+    per_bin,         ///< every bin, so that the taps add light that a display shows
+    per_bin_encoded  ///< every bin, and the taps add its sRGB-encoded values
+};
+
+/// bins -> exposure, tone map, background -> taps -> refinement -> drives, all on the device.
 struct DisplaySettings {
     float exposure_ev = 0.0f;  ///< radiance is multiplied by 2^exposure_ev
     ToneMap tone_map = ToneMap::khronos;
-    bool per_bin =
-        true;  ///< tone-map each bin, then average light that a display shows; else average radiance first
+    ToneOrder order = ToneOrder::per_bin;
+    std::optional<vec3> background;  ///< display-linear; put behind what is transparent
+    bool alpha = true;               ///< keep it; else what is transparent is black, or the background
+    std::optional<TapTable> taps;    ///< none: the box over the bins of a pixel
+    /// The bounded refinement of the drives, for its panel's taps; only where tones are mapped per bin.
+    std::optional<RefineStencil> refine;
+    unsigned refine_steps = 8;
 };
 
-/// Display-linear RGBA per pixel of the film's crop, row-major, in [0, 1], colour associated with alpha.
-/// Computed on the device in float, a slab at a time. Throws DeviceError.
+/// Bins that come from a picture of any renderer.
+struct BinImage {
+    unsigned columns = 0, rows = 0;   ///< bins
+    unsigned bins_x = 1, bins_y = 1;  ///< of a pixel; the last pixels reflect the bins they lack
+    std::vector<float> rgba;          ///< [row][column][R, G, B, alpha], colour associated
+    bool encoded = false;  ///< sRGB-encoded and tone-mapped already: exposure and tone map are not applied
+
+    unsigned width() const { return (columns + bins_x - 1) / bins_x; }  ///< pixels
+    unsigned height() const { return (rows + bins_y - 1) / bins_y; }
+};
+
+/// Display-linear RGBA per pixel of the film's crop, row-major, in [0, 1], colour associated with alpha. At
+/// the edges the picture goes on as its mirror image. Computed in float, some rows at a time, so that no
+/// piece of device memory is larger than the device allows. Throws DeviceError, Error(usage) for a tap table
+/// that does not fit the bins.
 std::vector<float> resolve_display(Device& device, const Film& film, const DisplaySettings& settings);
+std::vector<float> resolve_display(Device& device, const BinImage& image, const DisplaySettings& settings);
 
 /// Scene-linear RGBA per pixel: the mean over the bins.
 std::vector<float> resolve_linear(const Film& film);

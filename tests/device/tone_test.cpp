@@ -179,15 +179,15 @@ TEST(Resolve, exposure_counts_in_stops) {
 TEST(Resolve, a_bright_bin_saturates_itself_and_not_its_pixel) {
     const Film film = film_of(1, 1, 2, 1, {1000, 1000, 1000, 1, 0, 0, 0, 1});
     const double shown = khronos({1000, 1000, 1000})[0], mean = khronos({500, 500, 500})[0];
-    EXPECT_NEAR(resolve_display(test_device(), film, {.per_bin = true})[0], shown / 2, 1e-6);
-    EXPECT_NEAR(resolve_display(test_device(), film, {.per_bin = false})[0], mean, 1e-6);
+    EXPECT_NEAR(resolve_display(test_device(), film, {.order = ToneOrder::per_bin})[0], shown / 2, 1e-6);
+    EXPECT_NEAR(resolve_display(test_device(), film, {.order = ToneOrder::per_pixel})[0], mean, 1e-6);
 }
 
 TEST(Resolve, coverage_does_not_change_the_tone_of_what_is_covered) {
     const Film film = film_of(1, 1, 1, 1, {2.0f, 1.0f, 0.5f, 0.5f});
     const Rgb full = khronos({4.0, 2.0, 1.0});
-    for (const bool per_bin : {false, true}) {
-        const auto display = resolve_display(test_device(), film, {.per_bin = per_bin});
+    for (const ToneOrder order : {ToneOrder::per_pixel, ToneOrder::per_bin, ToneOrder::per_bin_encoded}) {
+        const auto display = resolve_display(test_device(), film, {.order = order});
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(display[c], full[c] / 2, 1e-6);
         EXPECT_EQ(display[3], 0.5f);
     }
