@@ -43,6 +43,9 @@
                                    */
 #define TRIAD_INDEPENDENT_SAMPLES 1
 #endif
+#ifndef TRIAD_RAY_STARTS /* rays start elsewhere in their bins than jittered */
+#define TRIAD_RAY_STARTS 1
+#endif
 #ifndef TRIAD_BINS /* the film has more than one bin per pixel */
 #define TRIAD_BINS 1
 #endif

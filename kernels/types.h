@@ -283,6 +283,21 @@ TRIAD_SIZE(Camera, 80);
 
 #define SAMPLER_SOBOL_BLOCKS 9u /* of random numbers, from Sobol's sequence; those beyond are hashed */
 
+/* Where in its bin a camera ray starts. */
+#define RAY_START_JITTER 0u /* anywhere, with equal density */
+#define RAY_START_CENTRE 1u
+#define RAY_START_FILTER 2u /* where a pixel filter says, which may lie outside: shading/ray_filter.h */
+
+/* The shape of the tables that rays start by, one for every bin of every pixel of a cell (RAY_START_FILTER):
+ * all of width x height taps, which are 1 / taps_x by 1 / taps_y pixels large. */
+typedef struct RayFilterShape {
+    uint cell[2]; /* pixels */
+    uint taps[2]; /* per pixel */
+    uint width, height;
+    uint table; /* floats of a table */
+} RayFilterShape;
+TRIAD_SIZE(RayFilterShape, 28);
+
 /* Everything of one picture that does not change between launches. */
 typedef struct Frame {
     Camera camera;
@@ -298,8 +313,10 @@ typedef struct Frame {
     CdfShape lights;  /* the tree that lights are picked by */
     float roulette;   /* 1 / throughput below which roulette kills, in proportion */
     uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
+    uint ray_start;   /* RAY_START_* */
+    RayFilterShape ray_filter;
 } Frame;
-TRIAD_SIZE(Frame, 296);
+TRIAD_SIZE(Frame, 328);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling

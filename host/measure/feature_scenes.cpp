@@ -157,6 +157,7 @@ const std::map<std::string, Recipe>& recipes() {
              s.settings.view.focus_distance = 4.4;
          }}},
         {"INDEPENDENT_SAMPLES", {[](FeatureScene& s) { s.settings.independent = true; }}},
+        {"RAY_STARTS", {[](FeatureScene& s) { s.settings.ray_start = RayStart::centre; }}},
         {"BINS", {[](FeatureScene& s) { s.settings.bins_x = s.settings.bins_y = 2; }}},
     };
     return all;

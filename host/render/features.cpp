@@ -19,6 +19,7 @@ constexpr FeatureOption table[] = {
     {"ENVIRONMENT_MAP", &Features::environment_map},
     {"LENS", &Features::lens},
     {"INDEPENDENT_SAMPLES", &Features::independent_samples},
+    {"RAY_STARTS", &Features::ray_starts},
     {"BINS", &Features::bins},
 };
 
@@ -65,6 +66,7 @@ Features features_of(const Scene& scene, const RenderSettings& settings, bool in
     f.environment_map = scene.environment.has_value();
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;
+    f.ray_starts = settings.ray_start != RayStart::jitter;
     f.bins = settings.bins_x * settings.bins_y > 1;
     return f;
 }

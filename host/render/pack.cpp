@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/albedo_tables.h"
+#include "render/ray_filter.h"
 
 namespace triad {
 namespace {
@@ -54,6 +55,10 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.root = packed.root;
     frame.first_block = settings.independent ? SAMPLER_SOBOL_BLOCKS : 0;
     frame.lights = packed.light_shape;
+    frame.ray_start = settings.ray_start == RayStart::centre   ? RAY_START_CENTRE
+                      : settings.ray_start == RayStart::filter ? RAY_START_FILTER
+                                                               : RAY_START_JITTER;
+    if (settings.ray_start == RayStart::filter) frame.ray_filter = ray_filter_shape(settings);
     return frame;
 }
 
@@ -91,6 +96,7 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
     add(packed.env_rows);
     add(packed.env_columns);
     add(packed.env_cosines);
+    add(ray_filter_tables(settings));
     return scene;
 }
 

@@ -151,11 +151,12 @@ class RenderLoop {
         const std::size_t most = s_.items_per_second > 0 ? largest_launch : 16;
         std::size_t n = 0;
         std::uint64_t samples = 0;
-        while (first + n < work.size() && n < most &&
+        const std::size_t band = work[first].tile / s_.band_tiles;
+        while (first + n < work.size() && n < most && work[first + n].tile / s_.band_tiles == band &&
                (n == 0 || s_.items_per_second == 0 || double(samples) < fit))
             samples += samples_of(work[first + n++]);
         const auto start = RenderClock::now();
-        s_.launch(first, n, goal_.samples.begin);
+        s_.launch(first, n, goal_.samples.begin, band);
         s_.device.finish();
         const double rate = double(samples) / std::max(seconds_since(start), 1e-6);
         // Small launches are dominated by overhead and must not make the next ones smaller still.

@@ -24,24 +24,55 @@ void check(const RenderSettings& s) {
 
 }  // namespace
 
-void Renderer::State::launch(std::size_t first, std::size_t count, std::uint64_t first_sample) {
+void Renderer::State::allocate_film() {
+    const std::size_t across = (film.width + FILM_TILE - 1) / FILM_TILE,
+                      allowed = device.info().max_allocation;
+    const std::size_t row_bytes = film.width * FILM_TILE * film.bins() * FILM_CHANNELS * sizeof(std::int64_t);
+    const std::size_t rows = (film.height + FILM_TILE - 1) / FILM_TILE;
+    const std::size_t fit =
+        allowed > 0 ? std::clamp<std::size_t>(allowed / row_bytes, 1, rows) : rows;  // rows of tiles
+    band_tiles = fit * across;
+    for (std::size_t row = 0; row < rows; row += fit) {
+        const std::size_t pixels =
+            film.width * (std::min<std::size_t>((row + fit) * FILM_TILE, film.height) - row * FILM_TILE);
+        bands.push_back({device.allocate(pixels * film.bins() * FILM_CHANNELS * sizeof(std::int64_t)),
+                         device.allocate(pixels * 3 * sizeof(std::int64_t))});
+        scene.bytes += bands.back().sums.bytes() + bands.back().half_sums.bytes();
+    }
+    samples = device.allocate(film.pixels() * sizeof(std::uint32_t));
+    counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
+    tiles = across * rows;
+    work = device.allocate(tiles * sizeof(dev::TileWork));
+    scene.bytes += samples.bytes() + work.bytes();
+}
+
+void Renderer::State::launch(std::size_t first, std::size_t count, std::uint64_t first_sample,
+                             std::size_t band) {
+    const std::size_t across = (film.width + FILM_TILE - 1) / FILM_TILE;
+    const std::size_t first_pixel = band * band_tiles / across * FILM_TILE * film.width;
     device.run(trace_paths,
                Arguments()
                    .add(scene.arguments)
-                   .add(sums)
-                   .add(half_sums)
+                   .add(bands[band].sums)
+                   .add(bands[band].half_sums)
                    .add(samples)
                    .add(counters)
                    .add(work)
                    .add(std::uint32_t(first))
                    .add(std::uint32_t(count))
                    .add(std::uint32_t(first_sample))
-                   .add(std::uint32_t(first_sample >> 32)),
+                   .add(std::uint32_t(first_sample >> 32))
+                   .add(std::uint32_t(first_pixel)),
                count * FILM_TILE_PIXELS);
 }
 
 void Renderer::State::clear_film() {
-    for (const Buffer* b : {&sums, &half_sums, &samples, &counters}) device.fill_zero(*b);
+    for (const Band& band : bands) {
+        device.fill_zero(band.sums);
+        device.fill_zero(band.half_sums);
+    }
+    device.fill_zero(samples);
+    device.fill_zero(counters);
 }
 
 void Renderer::State::name_settings() {
@@ -50,8 +81,15 @@ void Renderer::State::name_settings() {
 }
 
 void Renderer::State::load_film_arrays() {
-    film.sums = device.download<std::int64_t>(sums);
-    film.half_sums = device.download<std::int64_t>(half_sums);
+    film.sums.resize(film.pixels() * film.bins() * FILM_CHANNELS);
+    film.half_sums.resize(film.pixels() * 3);
+    std::size_t sum = 0, half_sum = 0;
+    for (const Band& band : bands) {
+        device.read(band.sums, &film.sums[sum], band.sums.bytes());
+        device.read(band.half_sums, &film.half_sums[half_sum], band.half_sums.bytes());
+        sum += band.sums.bytes() / sizeof(std::int64_t);
+        half_sum += band.half_sums.bytes() / sizeof(std::int64_t);
+    }
     film.samples = device.download<std::uint32_t>(samples);
     const auto words = device.download<std::uint32_t>(counters);
     for (std::size_t i = 0; i < COUNTERS; ++i)
@@ -80,13 +118,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     f.scene = hash_of(scene);
     s.name_settings();
     f.devices = {device.info().name + ", " + device.info().driver};
-    s.tiles = std::size_t((f.width + FILM_TILE - 1) / FILM_TILE) * ((f.height + FILM_TILE - 1) / FILM_TILE);
-    s.sums = device.allocate(f.pixels() * f.bins() * FILM_CHANNELS * sizeof(std::int64_t));
-    s.half_sums = device.allocate(f.pixels() * 3 * sizeof(std::int64_t));
-    s.samples = device.allocate(f.pixels() * sizeof(std::uint32_t));
-    s.counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
-    s.work = device.allocate(s.tiles * sizeof(dev::TileWork));
-    s.scene.bytes += s.sums.bytes() + s.half_sums.bytes() + s.samples.bytes() + s.work.bytes();
+    s.allocate_film();
 
     const auto compile_start = RenderClock::now();
     s.trace_paths = device.build("shading/path.cl", options_of(s.features)).kernel("trace_paths");
@@ -94,7 +126,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.clear_film();
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
     device.write(s.work, &first_tile, sizeof first_tile);
-    s.launch(0, 1, 0);
+    s.launch(0, 1, 0, 0);
     device.finish();
     s.clear_film();
     s.compile_seconds = seconds_since(compile_start);

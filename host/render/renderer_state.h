@@ -28,7 +28,13 @@ struct Renderer::State {
     DeviceScene scene;
     Features features;
     Kernel trace_paths;
-    Buffer sums, half_sums, samples, counters;
+    /// Of the film: bands of rows of tiles, from the top, so that no piece is larger than the device allows.
+    struct Band {
+        Buffer sums, half_sums;
+    };
+    std::vector<Band> bands;
+    std::size_t band_tiles = 0;  ///< of each but the last
+    Buffer samples, counters;
     Buffer work;                              ///< of a pass: one dev::TileWork for every tile
     std::size_t tiles = 0;                    ///< of the crop
     Film film;                                ///< without the arrays
@@ -39,8 +45,10 @@ struct Renderer::State {
 
     State(Device& d, const RenderSettings& s) : device(d), settings(s) {}
 
-    /// Renders work[first, first + count), whose samples are counted from first_sample.
-    void launch(std::size_t first, std::size_t count, std::uint64_t first_sample);
+    /// Of the film's arrays; the device's are not filled.
+    void allocate_film();
+    /// Renders work[first, first + count), all of one band, whose samples are counted from first_sample.
+    void launch(std::size_t first, std::size_t count, std::uint64_t first_sample, std::size_t band);
     void clear_film();
     void name_settings();  ///< in the film
     /// Fills source_names and light_source; before the packed arrays go.

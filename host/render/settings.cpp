@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <initializer_list>
 
+#include "base/hash.h"
+#include "render/ray_filter.h"
+
 namespace triad {
 
 std::string text_of(const RenderSettings& s) {
@@ -39,6 +42,15 @@ std::string text_of(const RenderSettings& s) {
     add("environment_rotation", {s.environment_rotation});
     add("environment_strength", {s.environment_strength});
     add("flatten_below", {double(s.flatten_below)});
+    // Named only where it is not the default, so that films of before keep their settings.
+    if (s.ray_start != RayStart::jitter) add("ray_start", {double(s.ray_start)});
+    if (s.ray_start == RayStart::filter) {
+        const std::vector<float> tables = ray_filter_tables(s);
+        const dev::RayFilterShape shape = ray_filter_shape(s);
+        text += ", \"ray_filter\": \"" +
+                Hash().add(&shape, sizeof shape).add(tables.data(), tables.size() * sizeof(float)).hex() +
+                "\"";
+    }
     return text + "}";
 }
 

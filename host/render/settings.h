@@ -5,14 +5,26 @@
 #include <cstdint>
 #include <string>
 
+#include "panel/taps.h"
 #include "scene/view.h"
 
 namespace triad {
+
+/// Where in its bin a camera ray starts.
+enum class RayStart {
+    jitter,  ///< anywhere, with equal density
+    centre,  ///< rays are those of a picture whose pixels are the bins, bit for bit
+    filter   ///< by a pixel filter: render/ray_filter.h
+};
 
 struct RenderSettings {
     unsigned width = 1280, height = 720;
     std::array<unsigned, 4> crop{};   ///< x, y, width, height; width 0: the whole picture
     unsigned bins_x = 1, bins_y = 1;  ///< bins per pixel
+    RayStart ray_start = RayStart::jitter;
+    /// For RayStart::filter. With as many bins as channels (3x1), a path starts by the filter of its bin's
+    /// channel; with one bin all channels share it.
+    TapTable ray_filter;
     std::uint32_t seed = 0;
     unsigned max_depth = 0;  ///< edges of a path; 0: no limit, Russian roulette ends it
     /// Roulette spares a path that carries more than this throughput and kills the others in proportion. No

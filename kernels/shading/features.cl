@@ -40,7 +40,8 @@ kernel void trace_features(SCENE_PARAMETERS, global float* albedos, global float
     uint hits = 0u;
     for (uint i = 0u; i < sample_count; ++i) {
         const SampleName name = sample_name(&local_frame, full_pixel, i);
-        const Ray ray = sample_camera_ray(&local_frame, &name, x, y);
+        SampleWeight weight;
+        const Ray ray = sample_camera_ray(&local_frame, ray_filter, &name, x, y, &weight);
 #if TRIAD_ALPHA_TEST
         coverage.ray = random_mix(name.path.key0 ^ name.path.index_reversed) + 2u;
 #endif

@@ -216,7 +216,7 @@ TRIAD_FUNCTION uint film_pixel(const Frame* frame, uint x, uint y) {
 #define TRACE_PARAMETERS                                                                               \
     SCENE_PARAMETERS, global long *sums, global long *half_sums, global uint *samples,                 \
         volatile global uint *counters, global const TileWork *work, uint first_work, uint work_count, \
-        uint first_sample_low, uint first_sample_high
+        uint first_sample_low, uint first_sample_high, uint first_pixel
 
 /* What one item of trace_paths does. */
 TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
@@ -235,8 +235,9 @@ TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
     Tally tally = {0u, 0u, 0u, 0u, 0u};
     for (uint i = 0u; i < sample_count; ++i) {
         const SampleName name = sample_name(&local_frame, full_pixel, first + i);
-        const Ray ray = sample_camera_ray(&local_frame, &name, x, y);
-        const float4 value = path_trace(&scene, &name.path, ray, &tally);
+        SampleWeight weight;
+        const Ray ray = sample_camera_ray(&local_frame, ray_filter, &name, x, y, &weight);
+        const float4 value = sample_weighted(path_trace(&scene, &name.path, ray, &tally), weight);
         if (!film_is_finite(value)) {
             ++tally.not_finite;
             continue;
@@ -247,11 +248,11 @@ TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
         const long b = film_fixed(value.z, local_frame.quanta, &saturated);
         const long a = film_fixed(value.w, local_frame.quanta, &saturated);
         tally.saturated += saturated;
-        global long* sum = sums + (pixel * bins + name.bin) * FILM_CHANNELS;
+        global long* sum = sums + ((pixel - first_pixel) * bins + name.bin) * FILM_CHANNELS;
         sum[0] = add_sat(sum[0], r), sum[1] = add_sat(sum[1], g), sum[2] = add_sat(sum[2], b),
         sum[3] = add_sat(sum[3], a);
         if (name.half_index == 0u) {
-            global long* half_sum = half_sums + pixel * 3;
+            global long* half_sum = half_sums + (pixel - first_pixel) * 3;
             half_sum[0] = add_sat(half_sum[0], r), half_sum[1] = add_sat(half_sum[1], g),
             half_sum[2] = add_sat(half_sum[2], b);
         }
@@ -267,6 +268,6 @@ TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PARAMETERS, size_t item) {
 /* Adds to the film the samples that work[first_work, first_work + work_count) names, from first_sample on. */
 kernel void trace_paths(TRACE_PARAMETERS) {
     trace_pixel(SCENE_ARGUMENTS, sums, half_sums, samples, counters, work, first_work, work_count,
-                first_sample_low, first_sample_high, get_global_id(0));
+                first_sample_low, first_sample_high, first_pixel, get_global_id(0));
 }
 #endif

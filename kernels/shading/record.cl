@@ -14,9 +14,10 @@ kernel void record_paths(SCENE_PARAMETERS, global PathRecord* records, global Pa
     const Frame local_frame = *frame;
     const ulong first = ((ulong)first_sample_high << 32) | first_sample_low;
     const SampleName name = sample_name(&local_frame, film_pixel(&local_frame, x, y), first + item);
-    const Ray ray = sample_camera_ray(&local_frame, &name, x, y);
+    SampleWeight weight;
+    const Ray ray = sample_camera_ray(&local_frame, ray_filter, &name, x, y, &weight);
     Tally tally = {0u, 0u, 0u, 0u, 0u, {paths + item * PATH_VERTICES, 0u}};
-    const float4 value = path_trace(&scene, &name.path, ray, &tally);
+    const float4 value = sample_weighted(path_trace(&scene, &name.path, ray, &tally), weight);
     PathRecord record;
     record.value[0] = value.x, record.value[1] = value.y, record.value[2] = value.z,
     record.value[3] = value.w;

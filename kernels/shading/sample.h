@@ -5,6 +5,7 @@
 
 #include "common/random.h"
 #include "shading/camera.h"
+#include "shading/ray_filter.h"
 
 /* Film position of work-item i of the crop: tiles of 8 x 8 pixels, so that neighbours in a work-group are
  * neighbours in the picture. Outside the crop (ragged edges): returns 0. */
@@ -52,15 +53,51 @@ TRIAD_FUNCTION SampleName sample_name(const Frame* frame, uint pixel, ulong s) {
     return name;
 }
 
-TRIAD_FUNCTION Ray sample_camera_ray(const Frame* frame, const SampleName* name, uint x, uint y) {
+/* Of what comes along a ray, in R, G, B and alpha: what counts for the film. Set only where TRIAD_RAY_STARTS.
+ */
+typedef float4 SampleWeight;
+
+TRIAD_FUNCTION float4 sample_weighted(float4 value, SampleWeight weight) {
+#if TRIAD_RAY_STARTS
+    return value * weight;
+#else
+    (void)weight;
+    return value;
+#endif
+}
+
+TRIAD_FUNCTION Ray sample_camera_ray(const Frame* frame, global const float* ray_filter,
+                                     const SampleName* name, uint x, uint y, SampleWeight* weight) {
     const SamplerBlock u = sampler_block(&name->position, 0u);
     float2 at = (float2)(random_float(u.x.s0), random_float(u.y.s0));
-#if TRIAD_BINS
-    at.x = (at.x + (float)(name->bin % frame->bins[0])) / (float)frame->bins[0];
-    at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
+    Camera camera = frame->camera;
+    *weight = (SampleWeight)(1.0f);
+#if TRIAD_RAY_STARTS
+    if (frame->ray_start == RAY_START_FILTER) {
+        float3 counts;
+        at = ray_filter_sample(frame, ray_filter, frame->crop[0] + x, frame->crop[1] + y, name->bin, at,
+                               &counts);
+        *weight = (float4)(counts, math_average(counts));
+    } else
 #endif
-    const Camera camera = frame->camera;
-    return camera_ray(&camera, (float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y,
+    {
+#if TRIAD_BINS
+        at.x = (at.x + (float)(name->bin % frame->bins[0])) / (float)frame->bins[0];
+        at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
+#endif
+    }
+    float2 position = (float2)((float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y);
+#if TRIAD_RAY_STARTS
+    if (frame->ray_start == RAY_START_CENTRE) {
+        /* The centre of a pixel of the picture whose pixels are the bins: the same bits as of that picture.
+         */
+        const uint2 bins = (uint2)(frame->bins[0], frame->bins[1]);
+        position.x = (float)((frame->crop[0] + x) * bins.x + name->bin % bins.x) + 0.5f;
+        position.y = (float)((frame->crop[1] + y) * bins.y + name->bin / bins.x) + 0.5f;
+        camera.pixels[0] *= (float)bins.x, camera.pixels[1] *= (float)bins.y;
+    }
+#endif
+    return camera_ray(&camera, position.x, position.y,
 #if TRIAD_LENS
                       sampler_2d(&name->path, 1u)
 #else

@@ -30,6 +30,7 @@ typedef struct Scene {
     global const uint* env_rows;      /* tree of shape environment.rows */
     global const ushort* env_columns; /* trees of shape environment.columns */
     global const float* env_cosines;  /* height + 1: cosine of the polar angle of the rows' borders */
+    global const float* ray_filter;   /* tables of shape frame->ray_filter */
 } Scene;
 
 #define SCENE_PARAMETERS                                                                                  \
@@ -40,12 +41,12 @@ typedef struct Scene {
         global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels, \
         global const float *srgb, global const float *albedo, global const Light *lights,                 \
         global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,         \
-        global const ushort *env_columns, global const float *env_cosines
+        global const ushort *env_columns, global const float *env_cosines, global const float *ray_filter
 
 #define SCENE_ARGUMENTS                                                                                     \
     frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials,     \
         texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows, env_columns, \
-        env_cosines
+        env_cosines, ray_filter
 #define SCENE_FROM_PARAMETERS \
     { SCENE_ARGUMENTS }
 
