@@ -36,7 +36,8 @@ struct TapTable {
 struct RefineStencil {
     unsigned cell_x = 1, cell_y = 1;  ///< pixels per cell
     unsigned radius = 0;              ///< pixels
-    /// [cell row][cell column][output channel][dy + radius][dx + radius][input channel]
+    /// [cell row][cell column][output channel][dy + radius][dx + radius][input channel]; the input is the
+    /// pixel dx to the right of the output's and dy below
     std::vector<float> weights;
     float step = 0;  ///< 1 / the largest eigenvalue
 };

@@ -30,9 +30,9 @@ const std::map<std::string, Names> below = {
 };
 
 /// Packages with one owner: how their headers begin.
-const std::map<std::string, std::string> owners = {{"CL/", "device"},      {"tiny_gltf", "io"},
-                                                   {"OpenImageIO/", "io"}, {"CLI/", "app"},
-                                                   {"xxhash", "base"},     {"glm/", "base"}};
+const std::map<std::string, std::string> owners = {
+    {"CL/", "device"},  {"tiny_gltf", "io"}, {"OpenImageIO/", "io"}, {"CLI/", "app"},
+    {"xxhash", "base"}, {"glm/", "base"},    {"fftw3", "panel"}};
 
 const Names kernel_families = {"traversal", "shading", "photon", "subpixel"};
 

@@ -1,0 +1,200 @@
+#include "panel/perceived.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/parallel_for.h"
+#include "base/text.h"
+#include "panel/fourier.h"
+#include "panel/simulate.h"
+
+namespace triad {
+namespace {
+
+using Complex = std::complex<double>;
+using Planes = std::array<std::vector<double>, 3>;
+
+constexpr unsigned least_margin = 16;  // px: the widest blur of S-CIELAB's at 45 pixels per degree
+constexpr unsigned rows_per_chunk = 16;
+
+bool transforms_fast(unsigned n) {
+    for (const unsigned factor : {2u, 3u, 5u, 7u})
+        while (n % factor == 0) n /= factor;
+    return n == 1;
+}
+
+/// Around a picture of `size` px: a multiple of the cell's size that makes a size of fast transforms, soon.
+unsigned margin_of(unsigned size, unsigned samples, unsigned cell) {
+    const unsigned first = (least_margin + cell - 1) / cell * cell;
+    for (unsigned margin = first; margin < 2 * first; margin += cell)
+        if (transforms_fast((size + 2 * margin) * samples)) return margin;
+    return first;
+}
+
+/// The picture with mirrored margins.
+RgbImage extended(const RgbImage& image, unsigned margin_x, unsigned margin_y) {
+    const auto mirror = [](unsigned i, unsigned margin, unsigned n) {
+        const unsigned period = 2 * n, m = (i + period - margin % period) % period;
+        return std::min(m, period - 1 - m);
+    };
+    RgbImage result{image.width + 2 * margin_x, image.height + 2 * margin_y, {}};
+    result.rgb.resize(std::size_t(result.width) * result.height * 3);
+    float* to = result.rgb.data();
+    for (unsigned y = 0; y < result.height; ++y) {
+        const float* row =
+            image.rgb.data() + std::size_t(mirror(y, margin_y, image.height)) * image.width * 3;
+        for (unsigned x = 0; x < result.width; ++x, to += 3)
+            std::copy_n(row + std::size_t(mirror(x, margin_x, image.width)) * 3, 3, to);
+    }
+    return result;
+}
+
+std::string size_text(const RgbImage& image) { return format("%u x %u", image.width, image.height); }
+
+}  // namespace
+
+struct PerceivedMetric::State {
+    Panel panel;
+    PerceivedChoice choice;
+    unsigned width, height, samples;  ///< px
+    unsigned margin_x, margin_y;      ///< px
+    Fourier fourier;
+    dvec3 white;
+    dmat3 opponent;                                 ///< of panel RGB
+    dmat3 back;                                     ///< to XYZ
+    std::array<std::vector<float>, 3> sensitivity;  ///< of each frequency, over their number
+    Planes wanted;
+
+    State(const Panel& p, const RgbImage& reference, unsigned s, const PerceivedChoice& c)
+        : panel(p),
+          choice(c),
+          width(reference.width / s),
+          height(reference.height / s),
+          samples(s),
+          margin_x(c.repeats ? 0 : margin_of(width, s, p.cell_x)),
+          margin_y(c.repeats ? 0 : margin_of(height, s, p.cell_y)),
+          fourier((width + 2 * margin_x) * s, (height + 2 * margin_y) * s) {
+        const PanelLight light = panel_light(panel);
+        white = light.white;
+        const dmat3 from_xyz = opponent_of_xyz(choice.eye, white);
+        opponent = from_xyz * dmat3(light.channel[0], light.channel[1], light.channel[2]);
+        back = glm::inverse(from_xyz);
+        weigh();
+        wanted = seen(extended(reference, margin_x * samples, margin_y * samples));
+    }
+
+    void weigh() {
+        for (auto& plane : sensitivity) plane.resize(fourier.frequencies());
+        const dvec2 step = choice.ppd * samples / dvec2(fourier.width(), fourier.height());
+        parallel_for(fourier.height(), rows_per_chunk, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t y = begin; y < end; ++y) {
+                const double fy = step.y * double(std::min<std::size_t>(y, fourier.height() - y));
+                for (unsigned x = 0; x < fourier.columns(); ++x) {
+                    const dvec3 h = contrast_sensitivity(choice.eye, std::hypot(step.x * x, fy));
+                    for (int c = 0; c < 3; ++c)
+                        sensitivity[std::size_t(c)][y * fourier.columns() + x] =
+                            float(h[c] / double(fourier.size()));
+                }
+            }
+        });
+    }
+
+    /// CIE XYZ as the eye sees it: each opponent channel keeps its share of each frequency.
+    Planes seen(const RgbImage& image) const {
+        Planes planes;
+        for (auto& plane : planes) plane.resize(fourier.size());
+        parallel_for(fourier.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const float* rgb = image.rgb.data() + 3 * i;
+                const dvec3 o = opponent * dvec3(rgb[0], rgb[1], rgb[2]);
+                for (int c = 0; c < 3; ++c) planes[std::size_t(c)][i] = o[c];
+            }
+        });
+        parallel_for(3, 1, [&](std::size_t begin, std::size_t end) {
+            std::vector<Complex> spectrum(fourier.frequencies());
+            for (std::size_t c = begin; c < end; ++c) {
+                fourier.forward(planes[c], spectrum);
+                for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= sensitivity[c][i];
+                fourier.backward(spectrum, planes[c]);
+            }
+        });
+        parallel_for(fourier.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const dvec3 xyz = back * dvec3(planes[0][i], planes[1][i], planes[2][i]);
+                for (int c = 0; c < 3; ++c) planes[std::size_t(c)][i] = xyz[c];
+            }
+        });
+        return planes;
+    }
+};
+
+PerceivedMetric::PerceivedMetric(const Panel& panel, const RgbImage& reference, unsigned samples,
+                                 const PerceivedChoice& choice) {
+    if (samples < 3 || reference.rgb.empty() || reference.width % samples || reference.height % samples)
+        throw Error(
+            Exit::comparison,
+            format(
+                "A perceived error needs a reference of 3 or more whole samples per pixel along both axes: "
+                "%s is not a number of pixels at %u.",
+                size_text(reference).c_str(), samples));
+    state_ = std::make_unique<const State>(panel, reference, samples, choice);
+}
+
+PerceivedMetric::PerceivedMetric(PerceivedMetric&&) noexcept = default;
+PerceivedMetric::~PerceivedMetric() = default;
+
+PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
+    const State& s = *state_;
+    if (drives.width != s.width || drives.height != s.height)
+        throw Error(Exit::comparison, format("The picture is %s, its reference shows %u x %u pixels.",
+                                             size_text(drives).c_str(), s.width, s.height));
+    const RgbImage light = simulate_panel(s.panel, extended(drives, s.margin_x, s.margin_y), s.samples);
+    const Planes shown = s.seen(light);
+    const dmat3 axes = linear_lab_of_xyz(s.white);
+    const auto at = [](const Planes& p, std::size_t i) { return dvec3(p[0][i], p[1][i], p[2][i]); };
+
+    PerceivedError result;
+    const unsigned width = s.width * s.samples, height = s.height * s.samples;
+    result.map = {width, height, std::vector<float>(std::size_t(width) * height * 3)};
+    const unsigned border = s.samples * std::min(s.choice.border, std::min(s.width, s.height) / 4);
+    std::vector<double> distances;
+    for (unsigned y = 0; y < height; ++y)
+        for (unsigned x = 0; x < width; ++x) {
+            const std::size_t i = (y + std::size_t(s.margin_y) * s.samples) * s.fourier.width() + x +
+                                  std::size_t(s.margin_x) * s.samples;
+            const dvec3 d = axes * (at(shown, i) - at(s.wanted, i));
+            float* map = result.map.rgb.data() + (std::size_t(y) * width + x) * 3;
+            for (int c = 0; c < 3; ++c) map[c] = float(d[c]);
+            if (std::min(x, y) < border || x + border >= width || y + border >= height) continue;
+            result.lightness += d.x * d.x;
+            result.colour += d.y * d.y + d.z * d.z;
+            distances.push_back(
+                glm::distance(lab_of_xyz(at(shown, i), s.white), lab_of_xyz(at(s.wanted, i), s.white)));
+            result.de_mean += distances.back();
+        }
+    const double count = double(distances.size());
+    result.error = std::sqrt((result.lightness + result.colour) / count);
+    result.lightness = std::sqrt(result.lightness / count);
+    result.colour = std::sqrt(result.colour / count);
+    result.de_mean /= count;
+    const auto p95 = distances.begin() + std::ptrdiff_t(0.95 * (count - 1));
+    std::nth_element(distances.begin(), p95, distances.end());
+    result.de_p95 = *p95;
+    return result;
+}
+
+unsigned samples_per_pixel(const RgbImage& drives, const RgbImage& reference) {
+    const unsigned samples = drives.width ? reference.width / drives.width : 0;
+    if (samples < 1 || reference.width != samples * drives.width ||
+        reference.height != samples * drives.height)
+        throw Error(
+            Exit::comparison,
+            "The reference must have a whole number of samples per pixel, the same along both axes: the "
+            "picture is " +
+                size_text(drives) + ", the reference " + size_text(reference) + ".");
+    return samples;
+}
+
+}  // namespace triad
