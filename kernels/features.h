@@ -24,6 +24,12 @@
 #ifndef TRIAD_TRANSMISSION /* some material transmits */
 #define TRIAD_TRANSMISSION 1
 #endif
+#ifndef TRIAD_DISPERSION /* some body refracts every wavelength otherwise, or every path has a wavelength */
+#define TRIAD_DISPERSION 1
+#endif
+#ifndef TRIAD_PRIORITIES /* bodies that overlap may differ in priority */
+#define TRIAD_PRIORITIES 1
+#endif
 #ifndef TRIAD_UNLIT /* some material is KHR_materials_unlit */
 #define TRIAD_UNLIT 1
 #endif

@@ -169,7 +169,9 @@ typedef struct Material {
     uint specular_use;
     uint specular_colour_use;
     uint transmission_use;
-    uint unused[4];
+    uint dispersion; /* of a solid body: its table of indices, or TRIAD_NONE */
+    uint priority;   /* of a solid body among others that overlap it */
+    uint unused[2];
 } Material;
 TRIAD_SIZE(Material, 128);
 
@@ -182,6 +184,20 @@ TRIAD_SIZE(Material, 128);
 #define ALBEDO_GLASS_MAX 0.6f
 #define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
 #define ALBEDO_FLOATS (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+
+/* ---- Wavelengths (kernels/common/spectrum.h) ---- */
+
+/* Tables over the wavelength: rows of 5 nm, straight lines between. */
+#define SPECTRUM_FIRST 380.0f
+#define SPECTRUM_STEP 5.0f
+#define SPECTRUM_ROWS 81
+#define WAVELENGTH_NODES 513
+
+typedef struct Spectrum {
+    float wavelength[WAVELENGTH_NODES]; /* nm: inverse of the distribution that wavelengths are drawn from */
+    float filter[SPECTRUM_ROWS][4];     /* linear Rec.709 per nm, signed; the integral is (1, 1, 1) */
+} Spectrum;
+TRIAD_SIZE(Spectrum, 3348);
 
 /* ---- Lights ---- */
 
@@ -313,10 +329,11 @@ typedef struct Frame {
     CdfShape lights;  /* the tree that lights are picked by */
     float roulette;   /* 1 / throughput below which roulette kills, in proportion */
     uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
-    uint ray_start;   /* RAY_START_* */
+    uint wavelength_from_camera; /* 1: every path has a wavelength from its start on */
+    uint ray_start;              /* RAY_START_* */
     RayFilterShape ray_filter;
 } Frame;
-TRIAD_SIZE(Frame, 328);
+TRIAD_SIZE(Frame, 332);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling

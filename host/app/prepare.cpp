@@ -85,6 +85,7 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
     settings.max_depth = o.max_depth;
     settings.roulette = o.roulette;
     settings.independent = o.independent;
+    settings.spectral = o.spectral;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
     settings.environment_rotation = o.env_rotate * pi / 180;

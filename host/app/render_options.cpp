@@ -21,6 +21,13 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::s
     return command.add_option_function<std::string>(name, std::move(assign), help)->type_name(form);
 }
 
+Spectral parse_spectral(const std::string& text) {
+    if (text == "auto") return Spectral::automatic;
+    if (text == "off") return Spectral::off;
+    if (text == "classic") return Spectral::classic;
+    throw Error(Exit::usage, "--spectral " + text + ": auto, off or classic.");
+}
+
 }  // namespace
 
 void declare(CLI::App& command, RenderOptions& o) {
@@ -122,6 +129,12 @@ void declare(CLI::App& command, RenderOptions& o) {
         ->type_name("D")
         ->group(view_group);
 
+    add_parsed(
+        command, "--spectral", "auto|off|classic",
+        "auto (the default): a path has one wavelength from the first body on that disperses; off: RGB; "
+        "classic: one wavelength from the camera on",
+        [&o](const std::string& v) { o.spectral = parse_spectral(v); })
+        ->group(light_group);
     command
         .add_option("--glass", o.glass,
                     "Make this material of the file that glass of the catalogue (docs/spectral.md); several "

@@ -29,6 +29,7 @@ struct RenderOptions {
     unsigned max_depth = 0;
     double roulette = RenderSettings{}.roulette;
     bool independent = false;  ///< samples, instead of Sobol's sequence
+    Spectral spectral = Spectral::automatic;
     unsigned bins_x = 1, bins_y = 1;
     std::string device;
     unsigned threads = 0;

@@ -17,11 +17,13 @@ void add_bsdf(std::vector<CheckCase>& cases);
 void add_bsdf_energy(std::vector<CheckCase>& cases);
 void add_lights(std::vector<CheckCase>& cases);
 void add_light_samplers(std::vector<CheckCase>& cases);
+void add_spectral(std::vector<CheckCase>& cases);
 void add_film(std::vector<CheckCase>& cases);
 
 void add_invariance(std::vector<CheckCase>& cases);
 void add_energy(std::vector<CheckCase>& cases);
 void add_radiometry(std::vector<CheckCase>& cases);
+void add_spectral_pictures(std::vector<CheckCase>& cases);
 void add_hard_pictures(std::vector<CheckCase>& cases);
 
 }  // namespace triad

@@ -32,7 +32,7 @@ const std::vector<CheckCase>& function_cases() {
         std::vector<CheckCase> all;
         for (const auto add :
              {add_layout, add_maths, add_random, add_sampling, add_traversal, add_traversal_reference,
-              add_ggx, add_bsdf, add_bsdf_energy, add_light_samplers, add_lights, add_film})
+              add_ggx, add_bsdf, add_bsdf_energy, add_light_samplers, add_lights, add_spectral, add_film})
             add(all);
         return all;
     }();
@@ -42,7 +42,9 @@ const std::vector<CheckCase>& function_cases() {
 const std::vector<CheckCase>& picture_cases() {
     static const std::vector<CheckCase> cases = [] {
         std::vector<CheckCase> all;
-        for (const auto add : {add_invariance, add_energy, add_radiometry, add_hard_pictures}) add(all);
+        for (const auto add :
+             {add_invariance, add_energy, add_radiometry, add_spectral_pictures, add_hard_pictures})
+            add(all);
         return all;
     }();
     return cases;

@@ -116,6 +116,13 @@ void use_specular(FeatureScene& s) {
     for (Material& m : s.scene.materials) m.specular = 1.0f;
 }
 
+void use_glass(FeatureScene& s) {
+    use_specular(s);
+    Material& ring = s.scene.materials[ring_material];
+    ring.transmission = ring.thickness = 1.0f;
+    ring.roughness = 0.1f;
+}
+
 using Use = void (*)(FeatureScene&);
 
 /// How a scene uses a feature, and what it must use already.
@@ -135,13 +142,11 @@ const std::map<std::string, Recipe>& recipes() {
         {"NORMAL_MAPS", {use_normal_maps, use_textures}},
         {"VERTEX_COLOURS", {use_vertex_colours}},
         {"SPECULAR", {use_specular}},
-        {"TRANSMISSION",
-         {[](FeatureScene& s) {
-              s.scene.materials[ring_material].transmission = 1.0f;
-              s.scene.materials[ring_material].thickness = 1.0f;
-              s.scene.materials[ring_material].roughness = 0.1f;
-          },
-          use_specular}},
+        {"TRANSMISSION", {use_glass, use_specular}},
+        {"DISPERSION",
+         {[](FeatureScene& s) { s.scene.materials[ring_material].dispersion = find_glass("N-BK7"); },
+          use_glass}},
+        {"PRIORITIES", {[](FeatureScene& s) { s.scene.materials[ring_material].priority = 1; }, use_glass}},
         {"UNLIT", {[](FeatureScene& s) { s.scene.materials[rock_material].unlit = true; }}},
         {"TRIANGLE_LIGHTS",
          {[](FeatureScene& s) { s.scene.materials[lamp_material].emission = vec3(5.0f); }}},

@@ -13,6 +13,8 @@ constexpr FeatureOption table[] = {
     {"VERTEX_COLOURS", &Features::vertex_colours},
     {"SPECULAR", &Features::specular},
     {"TRANSMISSION", &Features::transmission},
+    {"DISPERSION", &Features::dispersion},
+    {"PRIORITIES", &Features::priorities},
     {"UNLIT", &Features::unlit},
     {"TRIANGLE_LIGHTS", &Features::triangle_lights},
     {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
@@ -60,6 +62,10 @@ Features features_of(const Scene& scene, const RenderSettings& settings, bool in
     f.specular =
         any([](const Material& m) { return m.specular > 0 || m.metallic > 0 || m.transmission > 0; });
     f.transmission = any([](const Material& m) { return m.transmission > 0; });
+    f.dispersion = settings.spectral == Spectral::classic ||
+                   (settings.spectral != Spectral::off &&
+                    any([](const Material& m) { return m.dispersion.has_value(); }));
+    f.priorities = any([](const Material& m) { return m.priority != 0; });
     f.unlit = any([](const Material& m) { return m.unlit; });
     f.triangle_lights = any([](const Material& m) { return m.emission != vec3(0.0f); });
     f.punctual_lights = !scene.lights.empty();

@@ -19,6 +19,7 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings) {
     PackedScene packed;
     pack_geometry(scene, settings, packed);
     pack_materials(scene, packed);
+    pack_spectrum(scene, settings, packed);
     pack_environment(scene, settings, packed);
     pack_lights(scene, packed);
     packed.flattened = {};
@@ -54,6 +55,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.quanta = std::ldexp(1.0f, packed.quanta_log2);
     frame.root = packed.root;
     frame.first_block = settings.independent ? SAMPLER_SOBOL_BLOCKS : 0;
+    frame.wavelength_from_camera = settings.spectral == Spectral::classic;
     frame.lights = packed.light_shape;
     frame.ray_start = settings.ray_start == RayStart::centre   ? RAY_START_CENTRE
                       : settings.ray_start == RayStart::filter ? RAY_START_FILTER
@@ -96,6 +98,8 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
     add(packed.env_rows);
     add(packed.env_columns);
     add(packed.env_cosines);
+    add(packed.spectrum);
+    add(packed.indices);
     add(ray_filter_tables(settings));
     return scene;
 }

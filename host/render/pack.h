@@ -37,6 +37,8 @@ struct PackedScene {
     std::vector<float> env_cosines;
     std::vector<std::uint32_t> env_texels, env_rows;
     std::vector<std::uint16_t> env_columns;
+    std::vector<dev::Spectrum> spectrum;  ///< one, or none where no path has a wavelength
+    std::vector<float> indices;           ///< tables of bodies that disperse
     dev::CdfShape light_shape{};
     dev::Environment environment{};
 };
@@ -84,6 +86,7 @@ double srgb_decode(double encoded);
 // Parts of pack(), one file each.
 void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_materials(const Scene& scene, PackedScene& packed);
+void pack_spectrum(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_lights(const Scene& scene, PackedScene& packed);
 void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 

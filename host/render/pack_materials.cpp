@@ -114,6 +114,8 @@ void pack_materials(const Scene& scene, PackedScene& packed) {
         d.specular_use = textures.use(m.specular_texture, false);
         d.specular_colour_use = textures.use(m.specular_colour_texture, true);
         d.transmission_use = textures.use(m.transmission_texture, false);
+        d.dispersion = TRIAD_NONE;
+        d.priority = m.priority;
         packed.materials.push_back(d);
     }
 }

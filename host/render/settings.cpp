@@ -30,6 +30,7 @@ std::string text_of(const RenderSettings& s) {
     add("max_depth", {double(s.max_depth)});
     add("roulette", {s.roulette});
     add("independent", {double(s.independent)});
+    if (s.spectral != Spectral::automatic) add("spectral", {double(s.spectral)});
     add("transparent", {double(s.transparent)});
     add("eye", {v.eye.x, v.eye.y, v.eye.z});
     add("right", {v.right.x, v.right.y, v.right.z});

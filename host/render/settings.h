@@ -17,6 +17,13 @@ enum class RayStart {
     filter   ///< by a pixel filter: render/ray_filter.h
 };
 
+/// How light is split into wavelengths: docs/spectral.md.
+enum class Spectral {
+    automatic,  ///< RGB up to the first body that disperses, one wavelength from there on
+    off,        ///< RGB: bodies refract by their index at the d line
+    classic     ///< one wavelength per path from the camera on, as it was first published
+};
+
 struct RenderSettings {
     unsigned width = 1280, height = 720;
     std::array<unsigned, 4> crop{};   ///< x, y, width, height; width 0: the whole picture
@@ -33,6 +40,7 @@ struct RenderSettings {
     double roulette = 0.8;
     /// Random numbers hashed for every sample alone, instead of Sobol's sequence: more error, but known laws.
     bool independent = false;
+    Spectral spectral = Spectral::automatic;
     bool transparent =
         false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
     View view;

@@ -3,6 +3,7 @@
 #include "common/language.h"
 
 #include "common/random.h"
+#include "common/spectrum.h"
 #include "shading/coverage.h"
 #include "shading/light.h"
 #include "shading/record.h"
@@ -31,6 +32,13 @@ TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
     return t;
 }
 
+#if TRIAD_DISPERSION
+/* The path's wavelength: the samples of a pixel share the spectrum out evenly. */
+TRIAD_FUNCTION float path_wavelength(const Scene* scene, const Sampler* sampler, float3* filter) {
+    return spectrum_sample(scene->spectrum, sampler_2d(sampler, 2u).x, filter);
+}
+#endif
+
 /* Radiance and alpha along one camera ray. */
 TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sampler, Ray ray, Tally* tally) {
     global const Frame* frame = scene->frame;
@@ -46,6 +54,15 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
     Bodies bodies = (uint4)(TRIAD_NONE); /* that the path is in */
 #if TRIAD_TRANSMISSION
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
+#endif
+#if TRIAD_DISPERSION
+    float wavelength = 0.0f; /* nm; 0: all of them together */
+    /* what the path finds with one wavelength counts by `filter`; what it found before */
+    float3 filter = (float3)(1.0f), before = (float3)(0.0f);
+    if (frame->wavelength_from_camera) wavelength = path_wavelength(scene, sampler, &filter);
+    RECORD(tally->recorder.filter = filter;)
+#else
+    const float wavelength = 0.0f;
 #endif
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
@@ -92,8 +109,8 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const uint solid = flags & MATERIAL_SOLID ? s.material : TRIAD_NONE;
         const uint touching = solid == TRIAD_NONE ? TRIAD_NONE : s.touching;
         const uint inner = back ? solid : touching, outer = back ? touching : solid;
-        bodies = bodies_proved(bodies, inner);
-        const Bodies beyond = bodies_beyond(bodies, inner, outer);
+        bodies = bodies_proved(scene, bodies, inner);
+        const Bodies beyond = bodies_beyond(scene, bodies, inner, outer);
         if (bodies.s0 != TRIAD_NONE)
             throughput *= vertex_transmittance(scene->materials + bodies.s0, math_length(s.position - from));
         from = s.position;
@@ -133,7 +150,17 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             break;
         }
 
-        const VertexBsdf vertex = vertex_bsdf(scene, &s, wo, ng, back, bodies, beyond);
+#if TRIAD_DISPERSION && TRIAD_TRANSMISSION
+        /* the first surface that tells wavelengths apart: from here on the path has one */
+        if (wavelength == 0.0f && solid != TRIAD_NONE && s.transmission > 0.0f && s.metallic < 1.0f &&
+            (bodies_disperse(scene, bodies) || bodies_disperse(scene, beyond))) {
+            wavelength = path_wavelength(scene, sampler, &filter);
+            before = radiance;
+            radiance = (float3)(0.0f);
+            RECORD(tally->recorder.filter = filter;)
+        }
+#endif
+        const VertexBsdf vertex = vertex_bsdf(scene, &s, wo, ng, back, bodies, beyond, wavelength);
         const float3 wo_local = vertex.wo;
         const Bsdf bsdf = vertex.bsdf;
 
@@ -204,6 +231,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         RECORD(record_event(&tally->recorder, edge, sample.event, throughput);)
         ray = vertex_spawn(&s, side > 0.0f ? ng : -ng, &hit, direction);
     }
+#if TRIAD_DISPERSION
+    radiance = fma(filter, radiance, before);
+#endif
     return (float4)(radiance, alpha);
 }
 

@@ -30,23 +30,26 @@ typedef struct Scene {
     global const uint* env_rows;      /* tree of shape environment.rows */
     global const ushort* env_columns; /* trees of shape environment.columns */
     global const float* env_cosines;  /* height + 1: cosine of the polar angle of the rows' borders */
-    global const float* ray_filter;   /* tables of shape frame->ray_filter */
+    global const Spectrum* spectrum;
+    global const float* indices;    /* tables of (n, its change to the next row), SPECTRUM_ROWS each */
+    global const float* ray_filter; /* tables of shape frame->ray_filter */
 } Scene;
 
-#define SCENE_PARAMETERS                                                                                  \
-    global const Frame *frame, global const BvhNode *nodes, global const TriangleBlock *blocks,           \
-        global const Instance *instances, global const Triangle *triangles,                               \
-        global const Geometry *geometries, global const float *normals, global const float *tangents,     \
-        global const float *uvs, global const float *colours, global const Material *materials,           \
-        global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels, \
-        global const float *srgb, global const float *albedo, global const Light *lights,                 \
-        global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,         \
-        global const ushort *env_columns, global const float *env_cosines, global const float *ray_filter
+#define SCENE_PARAMETERS                                                                                    \
+    global const Frame *frame, global const BvhNode *nodes, global const TriangleBlock *blocks,             \
+        global const Instance *instances, global const Triangle *triangles,                                 \
+        global const Geometry *geometries, global const float *normals, global const float *tangents,       \
+        global const float *uvs, global const float *colours, global const Material *materials,             \
+        global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels,   \
+        global const float *srgb, global const float *albedo, global const Light *lights,                   \
+        global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,           \
+        global const ushort *env_columns, global const float *env_cosines, global const Spectrum *spectrum, \
+        global const float *indices, global const float *ray_filter
 
 #define SCENE_ARGUMENTS                                                                                     \
     frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials,     \
         texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows, env_columns, \
-        env_cosines, ray_filter
+        env_cosines, spectrum, indices, ray_filter
 #define SCENE_FROM_PARAMETERS \
     { SCENE_ARGUMENTS }
 

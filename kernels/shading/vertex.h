@@ -2,6 +2,7 @@
 #ifndef TRIAD_SHADING_VERTEX_H
 #define TRIAD_SHADING_VERTEX_H
 
+#include "common/spectrum.h"
 #include "shading/surface.h"
 
 /* A ray that leaves a surface to the side of `normal`, and never hits the triangle that it leaves. */
@@ -24,10 +25,11 @@ TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, float3 normal, const Hit* h
     return ray;
 }
 
-/* The bodies that a path is in, as materials: the one that it entered last comes first, TRIAD_NONE where
- * there is none. What fills the space is the first; the surface of another is passed as if it were not there.
- * So a body within another refracts against that one, and bodies that overlap meet without air between them.
- */
+/* The bodies that a path is in, as materials: the one of the highest priority comes first, of equal ones the
+ * one that was entered last; TRIAD_NONE where there is none. What fills the space is the first (Schmidt and
+ * Budge 2002, "Simple Nested Dielectrics in Ray Traced Images"); the surface of another is passed as if it
+ * were not there. So a body within another refracts against that one, and bodies that overlap meet without
+ * air between them. */
 typedef uint4 Bodies;
 
 #if TRIAD_TRANSMISSION
@@ -37,7 +39,23 @@ TRIAD_FUNCTION float3 vertex_transmittance(global const Material* body, float di
                     math_exp(-body->absorption[2] * distance));
 }
 
-TRIAD_FUNCTION Bodies bodies_enter(Bodies b, uint body) { return (uint4)(body, b.s012); }
+#if TRIAD_PRIORITIES
+TRIAD_FUNCTION int bodies_before(const Scene* scene, uint a, uint b) {
+    return a != TRIAD_NONE && scene->materials[a].priority > scene->materials[b].priority;
+}
+#endif
+
+TRIAD_FUNCTION Bodies bodies_enter(const Scene* scene, Bodies b, uint body) {
+#if TRIAD_PRIORITIES
+    if (bodies_before(scene, b.s0, body)) {
+        if (!bodies_before(scene, b.s1, body)) return (uint4)(b.s0, body, b.s12);
+        return bodies_before(scene, b.s2, body) ? (uint4)(b.s012, body) : (uint4)(b.s01, body, b.s2);
+    }
+#else
+    (void)scene;
+#endif
+    return (uint4)(body, b.s012);
+}
 
 TRIAD_FUNCTION Bodies bodies_leave(Bodies b, uint body) {
     if (b.s0 == body) return (uint4)(b.s123, TRIAD_NONE);
@@ -49,22 +67,35 @@ TRIAD_FUNCTION Bodies bodies_leave(Bodies b, uint body) {
 
 /* With the body whose inner side is seen: that is proof of where the path runs, wherever it was thought to
  * be. */
-TRIAD_FUNCTION Bodies bodies_proved(Bodies b, uint inner) {
+TRIAD_FUNCTION Bodies bodies_proved(const Scene* scene, Bodies b, uint inner) {
     const int known = b.s0 == inner || b.s1 == inner || b.s2 == inner || b.s3 == inner;
-    return inner == TRIAD_NONE || known ? b : bodies_enter(b, inner);
+    return inner == TRIAD_NONE || known ? b : bodies_enter(scene, b, inner);
 }
 
 /* Beyond a surface with the body `inner` on this side and `outer` on the other (either may be TRIAD_NONE). */
-TRIAD_FUNCTION Bodies bodies_beyond(Bodies b, uint inner, uint outer) {
+TRIAD_FUNCTION Bodies bodies_beyond(const Scene* scene, Bodies b, uint inner, uint outer) {
     if (inner != TRIAD_NONE) b = bodies_leave(b, inner);
-    return outer != TRIAD_NONE ? bodies_enter(b, outer) : b;
+    return outer != TRIAD_NONE ? bodies_enter(scene, b, outer) : b;
 }
 
-TRIAD_FUNCTION float bodies_index(const Scene* scene, Bodies b) {
-    return b.s0 == TRIAD_NONE
-               ? 1.0f
-               : math_max(scene->materials[b.s0].ior, 1.0f); /* an index of 0 lets nothing in */
+/* The index of refraction of what fills the space, at a wavelength in nm (0: all of them, at the d line). */
+TRIAD_FUNCTION float bodies_index(const Scene* scene, Bodies b, float wavelength) {
+    if (b.s0 == TRIAD_NONE) return 1.0f;
+    global const Material* body = scene->materials + b.s0;
+#if TRIAD_DISPERSION
+    if (wavelength > 0.0f && body->dispersion != TRIAD_NONE)
+        return spectrum_index(scene->indices, body->dispersion, wavelength);
+#else
+    (void)wavelength;
+#endif
+    return math_max(body->ior, 1.0f); /* an index of 0 lets nothing in */
 }
+
+#if TRIAD_DISPERSION
+TRIAD_FUNCTION int bodies_disperse(const Scene* scene, Bodies b) {
+    return b.s0 != TRIAD_NONE && scene->materials[b.s0].dispersion != TRIAD_NONE;
+}
+#endif
 #endif
 
 /* The local frame's normal: the shading normal on the side of wo. `mirror` is the share of the material that

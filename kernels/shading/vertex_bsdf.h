@@ -13,9 +13,9 @@ typedef struct VertexBsdf {
 } VertexBsdf;
 
 /* ng: the geometric normal on wo's side. back: that is the inner side of the surface. bodies and beyond: what
- * the path is in on wo's side and on the other. */
+ * the path is in on wo's side and on the other. wavelength: in nm, or 0 for all of them together. */
 TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, float3 wo, float3 ng, int back,
-                                      Bodies bodies, Bodies beyond) {
+                                      Bodies bodies, Bodies beyond, float wavelength) {
     global const Material* material = scene->materials + s->material;
     const uint solid = material->flags & MATERIAL_SOLID;
     BsdfInput input;
@@ -30,12 +30,21 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, floa
     input.inside = (uint)(back && solid);
 #if TRIAD_TRANSMISSION
     if (solid && material->ior >= 1.0f) { /* against what is around: from the denser side it is seen */
-        const float here = bodies_index(scene, bodies), there = bodies_index(scene, beyond);
+        const float here = bodies_index(scene, bodies, wavelength),
+                    there = bodies_index(scene, beyond, wavelength);
         input.inside = there < here;
         input.ior = input.inside ? here / there : there / here;
     }
 #else
-    (void)bodies, (void)beyond;
+    (void)bodies, (void)beyond, (void)wavelength;
+#endif
+#if TRIAD_TRANSMISSION && TRIAD_PRIORITIES
+    if (solid && bodies.s0 == beyond.s0 && bodies_before(scene, bodies.s0, s->material)) {
+        /* within a body of higher priority there is no surface: equal indices on both sides, and clear */
+        input.base_colour = (float3)(1.0f);
+        input.metallic = 0.0f;
+        input.transmission = 1.0f;
+    }
 #endif
     const float mirror = fma(1.0f - s->metallic, s->transmission, s->metallic);
     VertexBsdf v;

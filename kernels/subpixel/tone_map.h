@@ -1,5 +1,6 @@
 /* From scene-linear radiance (linear Rec.709, exposure applied) to display-linear light in [0, 1].
- * Every curve takes any float: NaN and negative values count as 0, and values beyond TONE_LIMIT as that. */
+ * Any float may come: NaN counts as 0, and what is beyond TONE_LIMIT as that. Colours outside Rec.709, which
+ * single wavelengths are, are brought into it first; this is the only place where that happens. */
 #ifndef TRIAD_TONE_MAP_H
 #define TRIAD_TONE_MAP_H
 
@@ -8,7 +9,20 @@
 
 #define TONE_LIMIT 1e10f /* squares of it, which the ACES fit takes, are still finite */
 
-TRIAD_FUNCTION float tone_map_input(float x) { return x > 0.0f ? (x < TONE_LIMIT ? x : TONE_LIMIT) : 0.0f; }
+TRIAD_FUNCTION float tone_map_input(float x) {
+    return x > -TONE_LIMIT ? (x < TONE_LIMIT ? x : TONE_LIMIT) : x <= -TONE_LIMIT ? -TONE_LIMIT : 0.0f;
+}
+
+/* A colour with negative channels, mixed with the grey of its luminance until none is: brightness and hue
+ * stay. Without luminance it is black. */
+TRIAD_FUNCTION float3 tone_map_gamut(float3 c) {
+    const float least = math_min(c.x, math_min(c.y, c.z));
+    if (least >= 0.0f) return c;
+    const float y = math_luminance(c);
+    const float3 mixed = fma(c - y, (float3)(y / (y - least)), (float3)(y));
+    return y > 0.0f ? (float3)(math_max(mixed.x, 0.0f), math_max(mixed.y, 0.0f), math_max(mixed.z, 0.0f))
+                    : (float3)(0.0f);
+}
 
 /* Khronos PBR Neutral Tone Mapper, specification of 2024 (github.com/KhronosGroup/ToneMapping). Keeps the
  * colours of materials lit in grey light: below the start of compression only the Fresnel reflection F90 =
@@ -72,6 +86,7 @@ TRIAD_FUNCTION float3 tone_map_agx(float3 c) {
 /* The curve `which` (TONE_MAP_* of types.h), cut to the display's [0, 1]. */
 TRIAD_FUNCTION float3 tone_map(uint which, float3 radiance) {
     float3 c = (float3)(tone_map_input(radiance.x), tone_map_input(radiance.y), tone_map_input(radiance.z));
+    c = tone_map_gamut(c);
     if (which == TONE_MAP_KHRONOS) c = tone_map_khronos(c);
     if (which == TONE_MAP_ACES) c = tone_map_aces(c);
     if (which == TONE_MAP_AGX) c = tone_map_agx(c);

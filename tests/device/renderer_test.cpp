@@ -41,6 +41,26 @@ TEST(Renderer, a_crop_has_the_pixels_of_the_whole) {
                     << x << "," << y;
 }
 
+TEST(Renderer, wavelengths_change_no_bit_where_nothing_disperses) {
+    const Scene scene = varied_scene();
+    RenderSettings settings = analytic::varied_settings();
+    const auto film = [&](const Scene& of, Spectral spectral, const std::optional<Features>& features) {
+        settings.spectral = spectral;
+        return picture_case::render(test_device(), of, settings, {{0, 4}}, features);
+    };
+    const Film off = film(scene, Spectral::off, {});
+    expect_same_bytes(off, film(scene, Spectral::automatic, {}), "auto");
+    expect_same_bytes(off, film(scene, Spectral::automatic, Features{}), "auto, everything compiled in");
+    Scene dispersive = scene;
+    for (Material& m : dispersive.materials)
+        if (m.transmission > 0) m.dispersion = Dispersion{Dispersion::Law::cauchy, 0, {1.4, 0.03}, {}};
+    EXPECT_FALSE(features_of(scene, settings, false).dispersion) << "the same program, so the same speed";
+    expect_same_bytes(off, film(dispersive, Spectral::off, Features{}), "dispersion turned off");
+    expect_same_bytes(film(dispersive, Spectral::automatic, {}),
+                      film(dispersive, Spectral::automatic, Features{}), "specialised and general");
+    EXPECT_NE(off.sums, film(dispersive, Spectral::automatic, {}).sums);
+}
+
 TEST(Renderer, begins_again_with_another_seed_as_a_new_one_would) {
     const Scene scene = varied_scene();
     RenderSettings settings = analytic::varied_settings();

@@ -169,6 +169,22 @@ TEST(ToneMap, any_float_gives_a_displayable_one) {
         for (const float v : map_all(which, in)) ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << which << " " << v;
 }
 
+TEST(ToneMap, colours_outside_the_gamut_keep_their_luminance_until_none_is_negative) {
+    const auto luminance = [](const float* c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };
+    const std::vector<float> in{-0.1f, 0.5f, 0.2f, 0.6f, -0.05f, -0.2f, 0.3f, 0.4f, 0.5f, -1.0f, 0.1f, 0.9f};
+    const std::vector<float> out = map_all(TONE_MAP_NONE, in);
+    for (std::size_t i = 0; i < 6; i += 3) {
+        EXPECT_NEAR(luminance(&out[i]), luminance(&in[i]), 1e-6);
+        EXPECT_NEAR(std::min({out[i], out[i + 1], out[i + 2]}), 0.0, 1e-6);
+        // on the line from the colour to the grey of its luminance
+        EXPECT_NEAR((out[i] - luminance(&in[i])) * (in[i + 1] - luminance(&in[i])),
+                    (out[i + 1] - luminance(&in[i])) * (in[i] - luminance(&in[i])), 1e-6);
+    }
+    EXPECT_EQ(std::vector<float>(out.begin() + 6, out.begin() + 9), (std::vector<float>{0.3f, 0.4f, 0.5f}));
+    EXPECT_EQ(std::vector<float>(out.begin() + 9, out.end()), std::vector<float>(3, 0.0f))
+        << "no light is left where luminance is negative";
+}
+
 TEST(Resolve, exposure_counts_in_stops) {
     const Film film = film_of(1, 1, 1, 1, {0.125f, 0.25f, 0.5f, 1.0f});
     const auto display =

@@ -12,7 +12,8 @@ namespace {
 constexpr unsigned size = 48, batches = 12, spp = 16;
 
 std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0,
-                          bool adaptive = false, double roulette = 0.8) {
+                          bool adaptive = false, double roulette = 0.8,
+                          Spectral spectral = Spectral::automatic) {
     validate(scene);
     std::vector<Batch> result;
     for (unsigned k = 0; k < batches; ++k) {
@@ -22,6 +23,7 @@ std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins =
         settings.seed = first_seed + k;
         settings.max_depth = max_depth;
         settings.roulette = roulette;
+        settings.spectral = spectral;
         settings.view = room_view();
         Renderer renderer(test_device(), scene, settings);
         renderer.render_until({.samples = {0, spp}, .adaptive = adaptive},
@@ -60,6 +62,34 @@ TEST(Agreement, an_even_sky_shines_as_a_map_of_it_that_is_sampled) {
 }
 
 TEST(Agreement, bins_change_no_mean) { expect_agreement(render(lit_room(1, false), 500, 2)); }
+
+TEST(Agreement, a_wavelength_for_every_path_shows_the_same_picture) {
+    expect_agreement(render(lit_room(1, false), 1000, 1, 0, false, 0.8, Spectral::classic));
+}
+
+/// The room with its glass (if `dispersed`, with a law that gives every wavelength the same index).
+Scene glass_room(bool dispersed, float roughness = 0.0f) {
+    Scene scene = lit_room(1, false);
+    const std::size_t material = scene.materials.size();
+    Material glass = picture_case::glass(1.5f, roughness);
+    glass.attenuation_distance = 0.5f;
+    glass.attenuation_colour = {0.9f, 0.6f, 0.4f};
+    if (dispersed) glass.dispersion = Dispersion{Dispersion::Law::cauchy, 0, {1.5}, {}};
+    scene.materials.push_back(glass);
+    Primitive ball = shapes::lat_long_sphere({0.9f, 0.5f, 0.6f}, 0.45f, 48, 24);
+    ball.material = material;
+    scene.meshes.push_back({"ball", {ball}});
+    scene.instances.push_back({"ball", scene.meshes.size() - 1, dmat4(1.0)});
+    return scene;
+}
+
+TEST(Agreement, a_dispersion_of_nothing_shows_the_same_picture) {
+    for (const float roughness : {0.0f, 0.4f}) {
+        const Agreement found = compare_pictures(render(glass_room(false, roughness), 1100),
+                                                 render(glass_room(true, roughness), 1200));
+        EXPECT_TRUE(found.agree) << found.sentence();
+    }
+}
 
 TEST(Agreement, roulette_changes_no_mean) {
     expect_agreement(render(lit_room(1, false), 900, 1, 0, false, 2.0));

@@ -1,0 +1,48 @@
+/* Light of one wavelength: which one a path or a pass of photons carries, what it adds to the picture, and
+ * how bodies refract it. Scheme and measurements: docs/spectral.md. */
+#ifndef TRIAD_COMMON_SPECTRUM_H
+#define TRIAD_COMMON_SPECTRUM_H
+
+#include "common/language.h"
+#include "common/math.h"
+
+/* Where between the rows of a table a wavelength (in nm) is: the row below, and the share of the next. */
+TRIAD_FUNCTION uint spectrum_row(float nanometres, float* share) {
+    const float x =
+        clamp((nanometres - SPECTRUM_FIRST) * (1.0f / SPECTRUM_STEP), 0.0f, (float)(SPECTRUM_ROWS - 1));
+    const uint row = min(convert_uint(x), SPECTRUM_ROWS - 2u);
+    *share = x - convert_float(row);
+    return row;
+}
+
+/* The linear Rec.709 colour that light of a wavelength adds to white light, per nanometre; signed. */
+TRIAD_FUNCTION float3 spectrum_filter(global const Spectrum* s, float nanometres) {
+    float t;
+    const uint row = spectrum_row(nanometres, &t);
+    const float4 a = vload4(row, &s->filter[0][0]), b = vload4(row + 1u, &s->filter[0][0]);
+    return fma((float4)(t), b - a, a).xyz;
+}
+
+/* Draws a wavelength in nm from u in [0, 1). *filter: spectrum_filter over the density, whose mean over u is
+ * (1, 1, 1): a path of throughput T that goes on with this wavelength alone brings T * filter. Whatever meets
+ * (a path and the photons that it gathers) must share one wavelength, and the filter counts once. */
+TRIAD_FUNCTION float spectrum_sample(global const Spectrum* s, float u, float3* filter) {
+    const float x = u * (float)(WAVELENGTH_NODES - 1);
+    const uint i = min(convert_uint(x), WAVELENGTH_NODES - 2u);
+    const float lo = s->wavelength[i], width = s->wavelength[i + 1u] - lo;
+    const float nanometres = fma(x - convert_float(i), width, lo);
+    *filter = spectrum_filter(s, nanometres) * (width * (float)(WAVELENGTH_NODES - 1));
+    return nanometres;
+}
+
+/* The index of refraction of a table of `indices`: Hermite's cubic between its rows, exact to rounding. */
+TRIAD_FUNCTION float spectrum_index(global const float* indices, uint table, float nanometres) {
+    float t;
+    const uint row = spectrum_row(nanometres, &t);
+    const float4 p = vload4(0, indices + 2u * (table * SPECTRUM_ROWS + row)); /* n, slope, n, slope */
+    const float rise = p.z - p.x;
+    const float cubic = p.y + p.w - 2.0f * rise, square = rise - p.y - cubic;
+    return fma(t, fma(t, fma(t, cubic, square), p.y), p.x);
+}
+
+#endif
