@@ -50,7 +50,7 @@ void check_emitter(const Panel& panel, std::size_t index) {
     for (const dvec2& corner : e.aperture.corners)
         reach = finite(corner) ? std::max({reach, std::abs(corner.x), std::abs(corner.y)}) : INFINITY;
     if (!(reach <= 2 * cell_cap)) bad("the aperture is larger than any cell.");
-    if (!(aperture_area(e.aperture) > 1e-6)) bad("the aperture has no area.");
+    if (!(e.aperture.radius >= 0) || !(aperture_area(e.aperture) > 1e-6)) bad("the aperture has no area.");
     if (e.pixel_x >= panel.cell_x || e.pixel_y >= panel.cell_y)
         bad(format("pixel [%u, %u] is outside of the cell of %u x %u pixels.", e.pixel_x, e.pixel_y,
                    panel.cell_x, panel.cell_y));

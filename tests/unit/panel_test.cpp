@@ -98,6 +98,7 @@ TEST(Panel, no_panel_is_made_of_nonsense) {
     refused([](Panel& p) { p.emitters[1].centre.x = 4; });
     refused([](Panel& p) { p.emitters[1].pixel_x = 1; });
     refused([](Panel& p) { p.emitters[1].aperture = {}; });
+    refused([](Panel& p) { p.emitters[1].aperture = {{}, -0.2}; });
     refused([](Panel& p) { p.emitters[1].aperture = {{{0, 0}, {1, 0}, {2, 0}}}; });
     refused([](Panel& p) { p.emitters[1].aperture.corners[0].x = INFINITY; });
     refused([](Panel& p) { p.emitters[1].feed = Feed::white; });
