@@ -29,6 +29,13 @@ TapTable displaced_box_taps(const Panel& panel, unsigned bins_x = 3, unsigned bi
 /// The box of the pixel, moved by `shift` px.
 TapTable full_pixel_taps(unsigned bins_x, unsigned bins_y, const dvec2& shift = dvec2(0));
 
+/// The optimal filters as Platt published them ("Optimal Filtering for Patterned Displays", IEEE Signal
+/// Processing Letters 7(7), 2000): along the stripes' direction alone, on one sample per subpixel, by the
+/// error that S-CIELAB sees; nine filters of 15 taps, or only the three of their own colour. Without what
+/// design_taps adds (apertures, the pictures' spectrum, a pull to the box), but with sums of 1. Throws
+/// Error(usage) for a panel that is not one of three even stripes.
+TapTable platt_taps(const Panel& panel, double ppd, bool nine);
+
 /// The quadratic form of the perceived error in the drives, for the bounded refinement. Only 0 where the
 /// advice is the full pixel.
 RefineStencil design_refine(const Panel& panel, double ppd);

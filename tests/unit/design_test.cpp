@@ -245,3 +245,44 @@ TEST(Refine, falls_without_limit_to_nothing_and_never_rises) {
             }
         }
 }
+
+TEST(Platt, agrees_with_a_prototype_at_twenty_pixels_per_degree) {
+    const TapTable taps = platt_taps(named("rgb"), 20, true);
+    EXPECT_EQ(taps.bins_x, 3u);
+    EXPECT_EQ(taps.bins_y, 1u);
+    const auto of = [&](unsigned c) {
+        const auto& w = taps.of(0, 0, c).weights;
+        return std::vector<double>(w.begin(), w.end());
+    };
+    EXPECT_EQ(taps.of(0, 0, 1).first_x, 1 - 7);
+    EXPECT_LT(farthest(of(1), {.010, .000, -.026, -.042, .000, .121, .267, .333, .266, .120, .000, -.043,
+                               -.028, .000, .012}),
+              .006);
+    EXPECT_LT(farthest(of(0), {.020, .000, -.037, -.052, .000, .127, .269, .333, .271, .128, .000, -.051,
+                               -.035, .000, .017}),
+              .006);
+    float most = 0;  // green to blue: published .055
+    for (unsigned i = 0; i < 15; ++i) most = std::max(most, std::abs(taps.of(0, 0, 2).cross[15 + i]));
+    EXPECT_NEAR(most, .055, .003);
+}
+
+TEST(Platt, keeps_flat_colours_turns_with_the_panel_and_refuses_triangles) {
+    for (const double ppd : {20.0, 45.0, 80.0})
+        for (const char* name : {"rgb", "bgr", "vrgb", "rgb-black-matrix"})
+            for (const Taps& taps : platt_taps(named(name), ppd, true).outputs) {
+                EXPECT_NEAR(total(taps.weights), 1, 1e-5) << name << ppd;
+                EXPECT_NEAR(total(taps.cross), 0, 1e-4) << name << ppd;
+            }
+    const TapTable rgb = platt_taps(named("rgb"), 35, false), bgr = platt_taps(named("bgr"), 35, false),
+                   vrgb = platt_taps(named("vrgb"), 35, false);
+    EXPECT_TRUE(rgb.of(0, 0, 0).cross.empty());
+    EXPECT_EQ(vrgb.bins_y, 3u);
+    for (unsigned c = 0; c < 3; ++c)
+        for (unsigned i = 0; i < 15; ++i) {
+            EXPECT_NEAR(bgr.of(0, 0, c).weights[14 - i], rgb.of(0, 0, c).weights[i], 1e-5);
+            EXPECT_NEAR(vrgb.of(0, 0, c).weights[i], rgb.of(0, 0, c).weights[i], 1e-6);
+        }
+    EXPECT_EQ(vrgb.of(0, 0, 0).first_y, -7);
+    for (const char* name : {"qd-oled", "pentile", "off", "woled"})
+        EXPECT_THROW(platt_taps(named(name), 45, true), Error);
+}
