@@ -18,6 +18,7 @@ void add_check(CLI::App& app, Exit& exit);
 void add_merge(CLI::App& app, Exit& exit);
 void add_resolve(CLI::App& app, Exit& exit);
 void add_compare(CLI::App& app, Exit& exit);
+void add_panel(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);
 
 /// -q and -v.

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "app/command_line.h"
+#include "app/compare_perceived.h"
 #include "app/output.h"
 #include "app/report.h"
-#include "base/colour.h"
 #include "io/io.h"
 #include "measure/flip.h"
 #include "measure/image_metrics.h"
@@ -22,6 +22,7 @@ struct CompareOptions {
     std::string picture, reference, json;
     std::vector<std::string> metrics;
     std::optional<double> max_rmse, max_relmse, max_mae, max_flip, min_psnr;
+    PerceivedOptions perceived;
 };
 
 /// Picture and reference.
@@ -50,20 +51,6 @@ constexpr Metric metrics[] = {
     {"flip", [](const Compared& c) { return mean_flip(flip_map(c.display[0], c.display[1])); },
      &CompareOptions::max_flip, false}};
 
-/// What a display shows: files of 8 and 16 bits are sRGB, others are taken as display-linear, without a tone
-/// map.
-RgbImage display_of(const std::string& path, const Picture& picture) {
-    const Channel* channels[] = {picture.find("R"), picture.find("G"), picture.find("B")};
-    RgbImage image;
-    if (std::count(channels, channels + 3, nullptr) > 0) return image;
-    image = {picture.width, picture.height, std::vector<float>(channels[0]->values.size() * 3)};
-    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
-        const float v = channels[i % 3]->values[i / 3];
-        image.rgb[i] = is_linear(path) ? v : float(srgb_decode(v));
-    }
-    return image;
-}
-
 /// R, G and B (and A when both have it), or every channel that both have when there is no R; one after the
 /// other.
 Compared read(const CompareOptions& o) {
@@ -89,7 +76,28 @@ Compared read(const CompareOptions& o) {
     return compared;
 }
 
+/// Of two pictures that differ in size, unlike all others.
+Exit run_perceived(const CompareOptions& o) {
+    if (o.metrics.size() > 1 || o.max_rmse || o.max_relmse || o.max_mae || o.max_flip || o.min_psnr)
+        throw Error(
+            Exit::usage,
+            "perceived compares a picture with one of many samples per pixel, the other metrics pictures of "
+            "one size: ask for them apart.");
+    std::string failures;
+    Json row = compare_perceived(o.picture, o.reference, o.perceived, o.json != "-", failures);
+    row["passed"] = failures.empty();
+    if (!o.json.empty()) write_report(o.json, "compare", nullptr, Json::array({row}));
+    if (!failures.empty())
+        throw Error(Exit::comparison, failures + "Pictures: " + o.picture + ", " + o.reference + ".");
+    return Exit::done;
+}
+
 Exit run(const CompareOptions& o) {
+    const auto& m = o.metrics;
+    if (std::find(m.begin(), m.end(), "perceived") != m.end() || o.perceived.limit) return run_perceived(o);
+    if (!o.perceived.panel.empty() || o.perceived.ppd || !o.perceived.eyes.empty() ||
+        !o.perceived.maps.empty())
+        throw Error(Exit::usage, "--panel, --ppd, --eye and --map go with --metric perceived.");
     const Compared compared = read(o);
     const auto& [picture, reference] = compared.values;
     const bool coloured = !compared.display[0].rgb.empty() && !compared.display[1].rgb.empty();
@@ -135,17 +143,20 @@ void add_compare(CLI::App& app, Exit& exit) {
     auto o = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand("compare", "Measure how far a picture is from a reference");
     command->add_option("PICTURE", o->picture, "EXR, HDR, PNG or JPEG")->required()->type_name("");
-    command->add_option("REFERENCE", o->reference, "The same size")->required()->type_name("");
-    command->add_option("--metric", o->metrics, "rmse, relmse, mae, psnr, flip (default: all)")
+    command->add_option("REFERENCE", o->reference, "The same size; of perceived: larger")
+        ->required()
+        ->type_name("");
+    command->add_option("--metric", o->metrics, "rmse, relmse, mae, psnr, flip (default: these); perceived")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::IsMember({"rmse", "relmse", "mae", "psnr", "flip"}))
+        ->check(CLI::IsMember({"rmse", "relmse", "mae", "psnr", "flip", "perceived"}))
         ->type_name("LIST");
     command->add_option("--max-rmse", o->max_rmse, "Exit 7 above this")->type_name("X");
     command->add_option("--max-relmse", o->max_relmse, "Exit 7 above this")->type_name("X");
     command->add_option("--max-mae", o->max_mae, "Exit 7 above this")->type_name("X");
     command->add_option("--max-flip", o->max_flip, "Exit 7 above this")->type_name("X");
     command->add_option("--min-psnr", o->min_psnr, "Exit 7 below this")->type_name("X");
+    declare_perceived(*command, o->perceived);
     command->add_option("--json", o->json, "Write the numbers as JSON (-: standard output)")
         ->type_name("FILE");
     command->callback([o, &exit] { exit = run(*o); });

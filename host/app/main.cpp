@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
     add_merge(app, exit);
     add_resolve(app, exit);
     add_compare(app, exit);
+    add_panel(app, exit);
     add_devices(app, exit);
     add_check(app, exit);
     add_bench(app, exit);

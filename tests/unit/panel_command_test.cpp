@@ -1,0 +1,138 @@
+// triad panel and triad compare --metric perceived, as typed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "app/panel_report.h"
+#include "io/io.h"
+#include "panel/panel.h"
+#include "program.h"
+#include "temporary_folder.h"
+
+using namespace triad;
+using nlohmann::json;
+
+namespace {
+
+void expect(const std::string& arguments, int exit, const std::string& sentence) {
+    const Outcome outcome = run_triad(arguments);
+    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
+    EXPECT_NE(outcome.output.find(sentence), std::string::npos) << arguments << "\n" << outcome.output;
+}
+
+json rows(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return json::parse(file)["rows"];
+}
+
+/// A vertical edge between bins, `samples` a pixel, 24 pixels wide and high.
+std::string edge(const TemporaryFolder& folder, const std::string& name, unsigned samples,
+                 Metadata metadata = {}) {
+    const unsigned n = 24 * samples;
+    Picture picture{n, n, 0, 0, 0, 0, {}, std::move(metadata)};
+    for (const char* channel : {"R", "G", "B"}) {
+        std::vector<float> values;
+        for (unsigned i = 0; i < n * n; ++i) values.push_back(i % n * 2 < n ? 0.8f : 0.1f);
+        picture.channels.push_back({channel, values});
+    }
+    const std::string path = (folder / name).string();
+    write_exr(path, picture);
+    return path;
+}
+
+}  // namespace
+
+TEST(PanelCommand, lists_and_prints_rows) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "rows.json").string();
+    expect("panel --json " + file, 0, "qd-oled");
+    const json list = rows(file);
+    ASSERT_EQ(list.size(), builtin_panels().size());
+    for (const json& row : list) {
+        EXPECT_TRUE(row["name"].is_string() && row["emitters"].is_array() && row["cell"].size() == 2);
+        EXPECT_TRUE(row["advice"] == "subpixel" || row["advice"] == "full-pixel");
+    }
+    expect("panel rgb --taps --bins 3x1 --json " + file, 0, "3 x 1 bins");
+    double sum = 0;
+    const json row = rows(file)[0];
+    for (const double w : row["taps"]["outputs"][2]["weights"]) sum += w;
+    EXPECT_NEAR(sum, 1, 1e-6);
+}
+
+TEST(PanelCommand, writes_a_file_that_it_reads_again) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "mine.json").string();
+    expect("panel pentile@90 --write " + file, 0, "pentile");
+    expect("panel " + file, 0, "cell 2 x 2");
+}
+
+TEST(PanelCommand, refuses_with_a_sentence) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "bad.json") << R"({"name": "x", "emitters": [{}]})";
+    expect("panel qdoled", 1, "Did you mean qd-oled?");
+    expect("panel " + (folder / "bad.json").string(), 2, "panel.emitters[0]");
+    expect("panel /no/such/panel.json", 2, "/no/such/panel.json");
+    expect("panel --taps", 1, "Name the panel");
+    expect("panel rgb -o x.bmp", 1, "x.bmp");
+    expect("panel rgb --taps --bins 99x1", 1, "1 to 16");
+    expect("panel qd-oled --taps --filter platt", 1, "stripes");
+    expect("panel rgb -o /tmp/x.png --picture /no/such.png", 2, "/no/such.png");
+}
+
+TEST(PanelCommand, drawings_show_every_emitter_where_it_is) {
+    for (const Panel& panel : builtin_panels()) {
+        constexpr unsigned zoom = 24;
+        const RgbImage image = magnified(panel, zoom);
+        ASSERT_EQ(image.width, 2 * panel.cell_x * zoom);
+        for (const Emitter& e : panel.emitters) {
+            const auto x = unsigned(e.centre.x * zoom), y = unsigned(e.centre.y * zoom);
+            const float* rgb = image.rgb.data() + (std::size_t(y) * image.width + x) * 3;
+            for (unsigned c = 0; c < 3; ++c) {
+                const bool own = e.feed == Feed::white || unsigned(e.feed) == c || panel.name == "off";
+                EXPECT_EQ(rgb[c] > 0.2f, own) << panel.name << " " << e.name << " " << rgb[c];
+            }
+        }
+    }
+}
+
+TEST(PerceivedCommand, finds_the_reference_by_its_size_and_keeps_the_limit) {
+    const TemporaryFolder folder;
+    const std::string fine = edge(folder, "fine.exr", 6), coarse = edge(folder, "coarse.exr", 1);
+    const std::string file = (folder / "rows.json").string();
+    expect("compare " + fine + " " + coarse + " --metric perceived --panel rgb --json " + file, 0,
+           "perceived scielab");
+    const json row = rows(file)[0];
+    EXPECT_EQ(row["reference"], fine);
+    EXPECT_EQ(row["samples_per_pixel"], 6);
+    ASSERT_EQ(row["perceived"].size(), 3u);
+    const double error = row["perceived"][0]["error"];
+    EXPECT_GT(error, 1);  // the whole pixel's colour fringe
+    expect("compare " + coarse + " " + fine + " --metric perceived --panel rgb --max-perceived 0.5", 7,
+           "perceived error");
+    expect("compare " + coarse + " " + fine +
+               " --metric perceived --panel off --eye scielab --max-perceived 0.5",
+           0, "");
+    const std::string map = (folder / "map.exr").string();
+    expect("compare " + fine + " " + coarse + " --metric perceived --panel rgb --map " + map + " --map " +
+               (folder / "map.png").string(),
+           0, "");
+    EXPECT_EQ(read_picture(map).width, 144u);
+    EXPECT_NE(read_picture(map).find("red_green"), nullptr);
+    EXPECT_EQ(read_picture(folder / "map.png").width, 144u);
+}
+
+TEST(PerceivedCommand, refuses_what_would_mean_nothing) {
+    const TemporaryFolder folder;
+    const std::string fine = edge(folder, "fine.exr", 3), coarse = edge(folder, "coarse.exr", 1),
+                      made = edge(folder, "made.exr", 1, {{"triad:panel", "bgr"}});
+    const std::string both = "compare " + fine + " " + coarse;
+    expect(both + " --metric perceived", 1, "--panel");
+    expect(both + " --panel rgb", 1, "--metric perceived");
+    expect(both + " --metric perceived,rmse --panel rgb", 1, "apart");
+    expect(both + " --metric perceived --panel rgb --map x.jpg", 1, "x.jpg");
+    expect("compare " + coarse + " " + coarse + " --metric perceived --panel rgb", 7, "3 or more");
+    expect("compare " + fine + " " + made + " --metric perceived --panel rgb", 7, "made for the panel bgr");
+    expect("compare " + fine + " " + made + " --metric perceived --panel bgr", 0, "scielab");
+}
