@@ -196,8 +196,9 @@ TRIAD_SIZE(Material, 128);
 typedef struct Spectrum {
     float wavelength[WAVELENGTH_NODES]; /* nm: inverse of the distribution that wavelengths are drawn from */
     float filter[SPECTRUM_ROWS][4];     /* linear Rec.709 per nm, signed; the integral is (1, 1, 1) */
+    float basis[SPECTRUM_ROWS][4];      /* what the primaries of Rec.709 reflect; the sum is 1 */
 } Spectrum;
-TRIAD_SIZE(Spectrum, 3348);
+TRIAD_SIZE(Spectrum, 4644);
 
 /* ---- Lights ---- */
 

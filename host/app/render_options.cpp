@@ -24,8 +24,9 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::s
 Spectral parse_spectral(const std::string& text) {
     if (text == "auto") return Spectral::automatic;
     if (text == "off") return Spectral::off;
+    if (text == "full") return Spectral::full;
     if (text == "classic") return Spectral::classic;
-    throw Error(Exit::usage, "--spectral " + text + ": auto, off or classic.");
+    throw Error(Exit::usage, "--spectral " + text + ": auto, off, full or classic.");
 }
 
 }  // namespace
@@ -130,8 +131,9 @@ void declare(CLI::App& command, RenderOptions& o) {
         ->group(view_group);
 
     add_parsed(
-        command, "--spectral", "auto|off|classic",
+        command, "--spectral", "auto|off|full|classic",
         "auto (the default): a path has one wavelength from the first body on that disperses; off: RGB; "
+        "full: four wavelengths per path; "
         "classic: one wavelength from the camera on",
         [&o](const std::string& v) { o.spectral = parse_spectral(v); })
         ->group(light_group);

@@ -33,7 +33,11 @@ dev::Spectrum spectrum_of(const std::array<dvec3, spectral_rows>& filter, const 
     dev::Spectrum s{};
     invert(density, s.wavelength);
     for (int i = 0; i < spectral_rows; ++i)
-        for (int c = 0; c < 3; ++c) s.filter[i][c] = static_cast<float>(filter[i][c]);
+        for (int c = 0; c < 3; ++c) {
+            const auto& basis = mallett_yuksel[i];
+            s.filter[i][c] = static_cast<float>(filter[i][c]);
+            s.basis[i][c] = static_cast<float>(basis[c] / (basis[0] + basis[1] + basis[2]));
+        }
     return s;
 }
 
@@ -77,7 +81,7 @@ void add_indices(const Dispersion& d, std::vector<float>& indices) {
 
 void pack_spectrum(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
     if (settings.spectral == Spectral::off) return;
-    bool any = settings.spectral == Spectral::classic;
+    bool any = settings.spectral == Spectral::classic || settings.spectral == Spectral::full;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         if (!scene.materials[i].dispersion) continue;
         packed.materials[i].dispersion =

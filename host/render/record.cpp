@@ -20,7 +20,8 @@ const std::vector<std::string>& Renderer::light_sources() const { return state_-
 void Renderer::record_pixel(unsigned x, unsigned y, SampleRange range,
                             const std::function<void(const RecordedPath&)>& receive) {
     State& s = *state_;
-    const Kernel kernel = s.device.build("shading/record.cl", options_of(s.features)).kernel("record_paths");
+    const Kernel kernel =
+        s.device.build(program_of(s.settings, "record"), options_of(s.features)).kernel("record_paths");
     const Buffer records = s.device.allocate(batch * sizeof(dev::PathRecord));
     const Buffer paths = s.device.allocate(batch * PATH_VERTICES * sizeof(dev::PathVertex));
     const std::uint32_t sky = static_cast<std::uint32_t>(s.source_names.size() - 1);

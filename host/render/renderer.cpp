@@ -121,7 +121,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.allocate_film();
 
     const auto compile_start = RenderClock::now();
-    s.trace_paths = device.build("shading/path.cl", options_of(s.features)).kernel("trace_paths");
+    s.trace_paths = device.build(program_of(settings, "path"), options_of(s.features)).kernel("trace_paths");
     // Some drivers generate code at the first launch: one tile, thrown away, keeps that out of render times.
     s.clear_film();
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};

@@ -21,6 +21,7 @@ enum class RayStart {
 enum class Spectral {
     automatic,  ///< RGB up to the first body that disperses, one wavelength from there on
     off,        ///< RGB: bodies refract by their index at the d line
+    full,       ///< four wavelengths per path from the camera on; reflectances and lights upsampled from RGB
     classic     ///< one wavelength per path from the camera on, as it was first published
 };
 

@@ -35,6 +35,14 @@ TRIAD_FUNCTION float spectrum_sample(global const Spectrum* s, float u, float3* 
     return nanometres;
 }
 
+/* What the primaries of Rec.709 reflect of a wavelength; white reflects all of it. */
+TRIAD_FUNCTION float3 spectrum_basis(global const Spectrum* s, float nanometres) {
+    float t;
+    const uint row = spectrum_row(nanometres, &t);
+    const float4 a = vload4(row, &s->basis[0][0]), b = vload4(row + 1u, &s->basis[0][0]);
+    return fma((float4)(t), b - a, a).xyz;
+}
+
 /* The index of refraction of a table of `indices`: Hermite's cubic between its rows, exact to rounding. */
 TRIAD_FUNCTION float spectrum_index(global const float* indices, uint table, float nanometres) {
     float t;

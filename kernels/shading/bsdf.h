@@ -10,6 +10,7 @@
 #ifndef TRIAD_SHADING_BSDF_H
 #define TRIAD_SHADING_BSDF_H
 
+#include "common/colour.h"
 #include "common/math.h"
 #include "common/sampling.h"
 #include "shading/albedo.h"
@@ -28,9 +29,9 @@
 #define BSDF_TRANSMISSION (TRIAD_SPECULAR && TRIAD_TRANSMISSION)
 
 typedef struct BsdfInput {
-    float3 base_colour;
+    Colour base_colour;
     float metallic, roughness, ior, specular;
-    float3 specular_colour;
+    Colour specular_colour;
     float transmission;
     uint solid;  /* refracts: a closed body */
     uint inside; /* wo is on the inner side of a solid body */
@@ -38,9 +39,9 @@ typedef struct BsdfInput {
 
 /* A material seen from one wo. */
 typedef struct Bsdf {
-    float3 diffuse; /* albedo of the Lambert lobe */
+    Colour diffuse; /* albedo of the Lambert lobe */
 #if TRIAD_SPECULAR
-    float3 specular0, specular1; /* reflection of metal and coat: specular0 + specular1 (1 - wo.h)^5 */
+    Colour specular0, specular1; /* reflection of metal and coat: specular0 + specular1 (1 - wo.h)^5 */
     float alpha;
     float stretch;    /* ggx_stretch of wo */
     float cap;        /* ggx_cap of wo; 1: normals are not bounded */
@@ -52,28 +53,28 @@ typedef struct Bsdf {
     uint solid;
     float eta;                 /* index beyond the surface over index before it */
     float body_scale;          /* of radiance that crosses: 1 / eta^2 of a solid body, else 1 */
-    float3 fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
-    float3 transmitter;        /* its weight, energy compensation included */
-    float3 tint;
+    Colour fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
+    Colour transmitter;        /* its weight, energy compensation included */
+    Colour tint;
     float p_cap; /* of a transmitter: probability that the normal is drawn within the cap */
 #endif
 } Bsdf;
 
 typedef struct BsdfSample {
     float3 wi;
-    float3 weight; /* f |cos| / pdf */
+    Colour weight; /* f |cos| / pdf */
     float pdf;     /* solid angle, over all lobes; 0 for a delta lobe */
     uint event;    /* BSDF_* bits; BSDF_NONE: absorbed */
 } BsdfSample;
 
 #if BSDF_TRANSMISSION
 /* Fresnel factor of the transmitting part, c the cosine on wo's side. */
-TRIAD_FUNCTION float3 bsdf_transmitter_fresnel(const Bsdf* b, float c) {
+TRIAD_FUNCTION Colour bsdf_transmitter_fresnel(const Bsdf* b, float c) {
     float r = fresnel_dielectric(c, b->eta);
-    if (r >= 1.0f) return (float3)(1.0f);
-    float3 f = fma(b->fresnel1, (float3)(r), b->fresnel0);
+    if (r >= 1.0f) return (Colour)(1.0f);
+    Colour f = fma(b->fresnel1, (Colour)(r), b->fresnel0);
     /* Brewster's dip goes below normal incidence */
-    f = (float3)(math_max(f.x, 0.0f), math_max(f.y, 0.0f), math_max(f.z, 0.0f));
+    f = colour_above(f, (Colour)(0.0f));
     /* both faces of a thin wall and all reflections between them: R = 2F / (1 + F), T = (1 - F) / (1 + F) */
     return b->solid ? f : 2.0f * f / (1.0f + f);
 }
@@ -81,12 +82,12 @@ TRIAD_FUNCTION float3 bsdf_transmitter_fresnel(const Bsdf* b, float c) {
 
 #if TRIAD_SPECULAR
 /* What a microfacet reflects and lets through (change of radiance not included) at wo.h = c. */
-TRIAD_FUNCTION void bsdf_microfacet(const Bsdf* b, float c, float3* reflected, float3* transmitted) {
-    *reflected = fma(b->specular1, (float3)(fresnel_schlick_weight(c)), b->specular0);
-    *transmitted = (float3)(0.0f);
+TRIAD_FUNCTION void bsdf_microfacet(const Bsdf* b, float c, Colour* reflected, Colour* transmitted) {
+    *reflected = fma(b->specular1, (Colour)(fresnel_schlick_weight(c)), b->specular0);
+    *transmitted = (Colour)(0.0f);
 #if BSDF_TRANSMISSION
     if (b->transmits) {
-        float3 f = bsdf_transmitter_fresnel(b, c);
+        Colour f = bsdf_transmitter_fresnel(b, c);
         *reflected += b->transmitter * f;
         *transmitted = b->transmitter * b->tint * (1.0f - f);
     }
@@ -94,10 +95,10 @@ TRIAD_FUNCTION void bsdf_microfacet(const Bsdf* b, float c, float3* reflected, f
 }
 
 /* Probability of choosing reflection at such a microfacet; negative when it is black. */
-TRIAD_FUNCTION float bsdf_reflect_probability(const Bsdf* b, float3 reflected, float3 transmitted) {
+TRIAD_FUNCTION float bsdf_reflect_probability(const Bsdf* b, Colour reflected, Colour transmitted) {
 #if BSDF_TRANSMISSION
     if (b->transmits) {
-        float r = math_average(reflected), t = math_average(transmitted);
+        float r = colour_average(reflected), t = colour_average(transmitted);
         return r + t > 0.0f ? r / (r + t) : -1.0f;
     }
 #else
@@ -123,11 +124,8 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
     b.diffuse = in->base_colour;
 #else
     float f0 = fresnel_normal(in->ior);
-    float3 coat0 =
-        (float3)(math_min(f0 * in->specular_colour.x, 1.0f), math_min(f0 * in->specular_colour.y, 1.0f),
-                 math_min(f0 * in->specular_colour.z, 1.0f)) *
-        in->specular;
-    float3 coat90 = (float3)(in->specular);
+    Colour coat0 = colour_min(f0 * in->specular_colour, (Colour)(1.0f)) * in->specular;
+    Colour coat90 = (Colour)(in->specular);
     float dielectric = 1.0f - in->metallic;
     float opaque = dielectric;
     b.alpha = math_square(in->roughness);
@@ -145,7 +143,7 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
 #endif
     if (lambert) { /* what follows would come to the same bits */
         b.diffuse = in->base_colour * opaque;
-        b.specular0 = b.specular1 = (float3)(0.0f);
+        b.specular0 = b.specular1 = (Colour)(0.0f);
         b.p_specular = 0.0f;
         return b;
     }
@@ -155,29 +153,29 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
     if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
     float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
 
-    float3 metal0 = in->base_colour;
-    float3 metal = in->metallic * fma(metal0, (float3)(missing), (float3)(1.0f));
-    float3 coat = fma(coat0, (float3)(missing), (float3)(1.0f));
+    Colour metal0 = in->base_colour;
+    Colour metal = in->metallic * fma(metal0, (Colour)(missing), (Colour)(1.0f));
+    Colour coat = fma(coat0, (Colour)(missing), (Colour)(1.0f));
     b.specular0 = fma(metal, metal0, opaque * coat * coat0);
     b.specular1 = fma(metal, 1.0f - metal0, opaque * coat * (coat90 - coat0));
-    float3 coat_albedo = coat * fma(coat90 - coat0, (float3)(albedo.y), coat0 * albedo.x);
-    b.diffuse = in->base_colour * (opaque * math_max(0.0f, 1.0f - math_max3(coat_albedo)));
+    Colour coat_albedo = coat * fma(coat90 - coat0, (Colour)(albedo.y), coat0 * albedo.x);
+    b.diffuse = in->base_colour * (opaque * math_max(0.0f, 1.0f - colour_max(coat_albedo)));
 
     b.stretch = ggx_stretch(wo, b.alpha);
-    float p = math_average(fma(b.specular1, (float3)(albedo.y), b.specular0 * albedo.x));
+    float p = colour_average(fma(b.specular1, (Colour)(albedo.y), b.specular0 * albedo.x));
     uint bounded = !b.smooth;
 #if BSDF_TRANSMISSION
     b.p_cap = 0.0f;
     if (b.transmits) {
         bounded = 0u;
         b.fresnel1 = (coat90 - coat0) / (1.0f - f0);
-        b.fresnel0 = fma((float3)(-f0), b.fresnel1, coat0);
+        b.fresnel0 = fma((Colour)(-f0), b.fresnel1, coat0);
         b.tint = in->base_colour;
         b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
         b.body_scale = in->solid ? 1.0f / (b.eta * b.eta) : 1.0f;
-        b.transmitter = (float3)(transmitter);
+        b.transmitter = (Colour)(transmitter);
         if (!b.smooth) {
-            float3 kept = (float3)(albedo.x);
+            Colour kept = (Colour)(albedo.x);
             if (in->solid) {
                 float2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
                 kept =
@@ -186,15 +184,15 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
             b.transmitter = transmitter / kept;
             /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
              * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
-            if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - math_average(kept));
+            if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - colour_average(kept));
             bounded = b.p_cap > 0.0f;
         }
-        float3 f = bsdf_transmitter_fresnel(&b, wo.z);
-        p += transmitter * math_max(math_average(f + (1.0f - f) * b.tint), BSDF_MIN_TRANSMITTER);
+        Colour f = bsdf_transmitter_fresnel(&b, wo.z);
+        p += transmitter * math_max(colour_average(f + (1.0f - f) * b.tint), BSDF_MIN_TRANSMITTER);
     }
 #endif
     b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;
-    float d = math_average(b.diffuse);
+    float d = colour_average(b.diffuse);
     b.p_specular = p > 0.0f ? (d > 0.0f ? p / (p + d) : 1.0f) : 0.0f;
 #endif
     return b;
@@ -202,7 +200,7 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
 
 /* Nonzero when bsdf_eval can be: else there is no point in sampling lights. */
 TRIAD_FUNCTION uint bsdf_has_smooth(const Bsdf* b) {
-    uint lit = b->diffuse.x > 0.0f || b->diffuse.y > 0.0f || b->diffuse.z > 0.0f;
+    uint lit = colour_max(b->diffuse) > 0.0f;
 #if TRIAD_SPECULAR
     lit = lit || (b->p_specular > 0.0f && !b->smooth);
 #endif
@@ -211,8 +209,8 @@ TRIAD_FUNCTION uint bsdf_has_smooth(const Bsdf* b) {
 
 #if TRIAD_SPECULAR
 /* Adds the microfacets' f |cos| and pdf; wi.z != 0. */
-TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, float3* f, float* pdf) {
-    float3 reflected, transmitted;
+TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, Colour* f, float* pdf) {
+    Colour reflected, transmitted;
 #if BSDF_TRANSMISSION
     if (wi.z < 0.0f) {
         float3 w = b->solid ? wi : (float3)(wi.x, wi.y, -wi.z);
@@ -259,8 +257,8 @@ TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, f
 #endif
 
 /* f |cos wi| and its pdf over all lobes; delta lobes excluded. */
-TRIAD_FUNCTION_PER_CALL float3 bsdf_eval(const Bsdf* b, float3 wo, float3 wi, float* pdf) {
-    float3 f = (float3)(0.0f);
+TRIAD_FUNCTION_PER_CALL Colour bsdf_eval(const Bsdf* b, float3 wo, float3 wi, float* pdf) {
+    Colour f = (Colour)(0.0f);
     *pdf = 0.0f;
     if (wi.z > 0.0f) {
         float lambert = wi.z * MATH_INV_PI;
@@ -286,7 +284,7 @@ TRIAD_FUNCTION_PER_CALL float3 bsdf_eval(const Bsdf* b, float3 wo, float3 wi, fl
 TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, float2 u) {
     BsdfSample s;
     s.wi = (float3)(0.0f, 0.0f, 1.0f);
-    s.weight = (float3)(0.0f);
+    s.weight = (Colour)(0.0f);
     s.pdf = 0.0f;
     s.event = BSDF_NONE;
 #if TRIAD_SPECULAR
@@ -302,7 +300,7 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, fl
 #endif
         float3 h = b->smooth ? (float3)(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, u);
         float c = b->smooth ? wo.z : math_min(math_dot(wo, h), 1.0f);
-        float3 reflected, transmitted;
+        Colour reflected, transmitted;
         bsdf_microfacet(b, c, &reflected, &transmitted);
         float reflect = bsdf_reflect_probability(b, reflected, transmitted);
         if (c <= 0.0f || reflect < 0.0f) return s;
@@ -345,7 +343,7 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, fl
             return s;
         }
     }
-    float3 f = bsdf_eval(b, wo, s.wi, &s.pdf);
+    Colour f = bsdf_eval(b, wo, s.wi, &s.pdf);
     if (!(s.pdf > 0.0f)) {
         s.event = BSDF_NONE;
         return s;

@@ -3,12 +3,11 @@
 #include "common/language.h"
 
 #include "common/random.h"
-#include "common/spectrum.h"
 #include "shading/coverage.h"
 #include "shading/light.h"
+#include "shading/path_colour.h"
 #include "shading/record.h"
 #include "shading/sample.h"
-#include "shading/vertex_bsdf.h"
 #include "subpixel/film.h"
 #include "traversal/traverse.h"
 
@@ -16,6 +15,9 @@
  * glass). */
 #define ROULETTE_ALWAYS_FROM 64u
 #define ROULETTE_ALWAYS 0.999f
+
+/* A surface may have to be looked at with each of the path's wavelengths. */
+#define PATH_EACH (TRIAD_HERO && TRIAD_DISPERSION && BSDF_TRANSMISSION)
 
 /* What one work-item counts, in registers, for COUNTER_*. */
 typedef struct Tally {
@@ -32,18 +34,11 @@ TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
     return t;
 }
 
-#if TRIAD_DISPERSION
-/* The path's wavelength: the samples of a pixel share the spectrum out evenly. */
-TRIAD_FUNCTION float path_wavelength(const Scene* scene, const Sampler* sampler, float3* filter) {
-    return spectrum_sample(scene->spectrum, sampler_2d(sampler, 2u).x, filter);
-}
-#endif
-
 /* Radiance and alpha along one camera ray. */
 TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sampler, Ray ray, Tally* tally) {
     global const Frame* frame = scene->frame;
     const uint max_depth = frame->max_depth;
-    float3 radiance = (float3)(0.0f), throughput = (float3)(1.0f);
+    Colour radiance = (Colour)(0.0f), throughput = (Colour)(1.0f);
     float alpha = 1.0f;
     float pdf =
         0.0f; /* solid-angle density of the last direction; 0: delta or camera, found by no other sampling */
@@ -55,15 +50,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
 #if TRIAD_TRANSMISSION
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
 #endif
-#if TRIAD_DISPERSION
-    float wavelength = 0.0f; /* nm; 0: all of them together */
-    /* what the path finds with one wavelength counts by `filter`; what it found before */
-    float3 filter = (float3)(1.0f), before = (float3)(0.0f);
-    if (frame->wavelength_from_camera) wavelength = path_wavelength(scene, sampler, &filter);
-    RECORD(tally->recorder.filter = filter;)
-#else
-    const float wavelength = 0.0f;
-#endif
+    PathColour colours = path_colour_start(scene, sampler);
     Traversal traversal = path_traversal(scene);
 #if TRIAD_ALPHA_TEST
     Coverage coverage;
@@ -87,18 +74,24 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             RECORD(record_end(&tally->recorder, edge, PATH_LEFT_SCENE);)
             if (straight && frame->transparent) {
                 /* weights above 1 make up for paths that ended in a surface: no clamping */
-                alpha = 1.0f - math_average(throughput) / body_scale;
+                alpha = 1.0f - colour_average(throughput) / body_scale;
                 break;
             }
             float light_pdf;
-            const float3 sky = environment_radiance(scene, -wo, &light_pdf);
-            const float3 found = throughput * sky * (pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f);
+            const Colour sky = path_colour(&colours, environment_radiance(scene, -wo, &light_pdf));
+            const Colour found = throughput * sky * (pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f);
             radiance += found;
-            RECORD(record_found(&tally->recorder, edge, found);)
+            RECORD(record_found(&tally->recorder, edge, path_found(&colours, found));)
             break;
         }
 
+#if TRIAD_HERO
+        Surface s = surface_make(scene, &hit);
+        s.base_values = path_colour(&colours, s.base_colour);
+        s.specular_values = path_colour(&colours, s.specular_colour);
+#else
         const Surface s = surface_make(scene, &hit);
+#endif
         RECORD(record_vertex(&tally->recorder, edge, s.position, &hit, s.material);)
         global const Material* material = scene->materials + s.material;
         const uint flags = material->flags;
@@ -112,7 +105,8 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         bodies = bodies_proved(scene, bodies, inner);
         const Bodies beyond = bodies_beyond(scene, bodies, inner, outer);
         if (bodies.s0 != TRIAD_NONE)
-            throughput *= vertex_transmittance(scene->materials + bodies.s0, math_length(s.position - from));
+            throughput *=
+                path_transmittance(&colours, scene->materials + bodies.s0, math_length(s.position - from));
         from = s.position;
 #else
         const Bodies beyond = bodies;
@@ -120,9 +114,10 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
 #if TRIAD_UNLIT
         if (flags &
             MATERIAL_UNLIT) { /* shows its colour to the camera, directly or in mirrors; black to all else */
-            const float3 found = specular ? throughput * s.base_colour : (float3)(0.0f);
+            const Colour found =
+                specular ? throughput * path_colour(&colours, s.base_colour) : (Colour)(0.0f);
             radiance += found;
-            RECORD(record_found(&tally->recorder, edge, found);)
+            RECORD(record_found(&tally->recorder, edge, path_found(&colours, found));)
             RECORD(record_end(&tally->recorder, edge, PATH_UNLIT);)
             break;
         }
@@ -138,31 +133,39 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                     power_heuristic(1.0f / (pdf * light_triangle_inverse_pdf(&light, 1.0f / (hit.t * hit.t),
                                                                              math_dot(ng, wo))));
             }
-            const float3 found = throughput * surface_emission(scene, material, s.uv0, s.uv1) * weight;
+            const Colour found =
+                throughput * path_colour(&colours, surface_emission(scene, material, s.uv0, s.uv1)) * weight;
             radiance += found;
-            RECORD(record_found(&tally->recorder, edge, found);)
+            RECORD(record_found(&tally->recorder, edge, path_found(&colours, found));)
         }
 #endif
         if (edge == max_depth) {
             ++tally->truncated;
-            tally->cut_energy += (uint)(math_min(math_luminance(throughput), 65535.0f) * 65536.0f);
+            tally->cut_energy += (uint)(math_min(colour_luminance(throughput), 65535.0f) * 65536.0f);
             RECORD(record_end(&tally->recorder, edge, PATH_LONGEST);)
             break;
         }
 
 #if TRIAD_DISPERSION && TRIAD_TRANSMISSION
-        /* the first surface that tells wavelengths apart: from here on the path has one */
-        if (wavelength == 0.0f && solid != TRIAD_NONE && s.transmission > 0.0f && s.metallic < 1.0f &&
-            (bodies_disperse(scene, bodies) || bodies_disperse(scene, beyond))) {
-            wavelength = path_wavelength(scene, sampler, &filter);
-            before = radiance;
-            radiance = (float3)(0.0f);
-            RECORD(tally->recorder.filter = filter;)
-        }
+        /* a surface that tells wavelengths apart */
+        const int disperses = solid != TRIAD_NONE && s.transmission > 0.0f && s.metallic < 1.0f &&
+                              (bodies_disperse(scene, bodies) || bodies_disperse(scene, beyond));
+#if !TRIAD_HERO
+        if (disperses && colours.wavelength == 0.0f)
+            path_draw_wavelength(&colours, scene, sampler, &radiance);
 #endif
-        const VertexBsdf vertex = vertex_bsdf(scene, &s, wo, ng, back, bodies, beyond, wavelength);
+#endif
+        const VertexBsdf vertex =
+            vertex_bsdf(scene, &s, wo, ng, back, bodies, beyond, path_wavelength(&colours));
         const float3 wo_local = vertex.wo;
         const Bsdf bsdf = vertex.bsdf;
+#if PATH_EACH
+        int each = disperses && path_has_others(&colours); /* wavelengths are looked at one by one */
+        if (each && bsdf.smooth) {
+            path_end_others(&colours, &throughput);
+            each = 0;
+        }
+#endif
 
         if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
             LightSample light;
@@ -179,14 +182,23 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
 #endif
                 if (lit) {
                     float bsdf_pdf;
-                    float3 direct = throughput * bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
+                    Colour direct = bsdf_eval(&bsdf, wo_local, wi, &bsdf_pdf);
+#if PATH_EACH
+                    if (each) {
+                        float4 densities;
+                        direct =
+                            path_eval_each(scene, &colours, &s, wo, ng, back, bodies, beyond, wi, &densities);
+                        bsdf_pdf = path_mean_density(&colours, densities);
+                    }
+#endif
+                    direct = throughput * direct;
 #if TRIAD_TRANSMISSION
                     const uint around_light = side < 0.0f ? beyond.s0 : bodies.s0;
                     if (around_light != TRIAD_NONE && !light.distant)
-                        direct *= vertex_transmittance(scene->materials + around_light,
-                                                       math_length(light.target - s.position));
+                        direct *= path_transmittance(&colours, scene->materials + around_light,
+                                                     math_length(light.target - s.position));
 #endif
-                    if (math_max3(direct * light.weight) > 0.0f) {
+                    if (colour_max(direct * path_colour(&colours, light.weight)) > 0.0f) {
                         const float3 away = side > 0.0f ? ng : -ng;
 #if TRIAD_ALPHA_TEST
                         coverage.ray += 1u;
@@ -195,9 +207,11 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                                                          : vertex_spawn_to(&s, away, &hit, light.target);
                         ++tally->rays;
                         if (!traverse_occluded(&traversal, shadow) && light_complete(scene, &light)) {
-                            direct *= light.weight * power_heuristic(bsdf_pdf * light.inverse_pdf);
+                            direct *= path_colour(&colours, light.weight) *
+                                      power_heuristic(bsdf_pdf * light.inverse_pdf);
                             radiance += direct;
-                            RECORD(record_direct(&tally->recorder, edge, direct, scene, u.x.s2);)
+                            RECORD(record_direct(&tally->recorder, edge, path_found(&colours, direct), scene,
+                                                 u.x.s2);)
                         }
                     }
                 }
@@ -211,30 +225,39 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const float3 direction = frame_to_world(&vertex.frame, sample.wi);
         const float side = math_dot(direction, ng);
         if (!(side * sample.wi.z > 0.0f)) break;
-        throughput *= sample.weight;
+        Colour weight = sample.weight;
+        float density = sample.pdf;
+#if PATH_EACH
+        if (each) {
+            float4 densities;
+            weight = path_eval_each(scene, &colours, &s, wo, ng, back, bodies, beyond, sample.wi, &densities);
+            density = path_mean_density(&colours, densities);
+            if (!(density > 0.0f)) break;
+            weight *= 1.0f / density;
+            colours.share *= densities / density;
+        }
+#endif
+        throughput *= weight;
 #if BSDF_TRANSMISSION
         if (sample.event & BSDF_TRANSMIT) {
             body_scale *= bsdf.body_scale;
             bodies = beyond;
         }
 #endif
-        pdf = (sample.event & BSDF_DELTA) ? 0.0f : sample.pdf;
+        pdf = (sample.event & BSDF_DELTA) ? 0.0f : density;
         straight = straight && (sample.event & BSDF_TRANSMIT);
         specular = specular && (sample.event & BSDF_DELTA);
 
         const float most = edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
-        const float survive = math_min(math_max3(throughput) * frame->roulette / body_scale, most);
+        const float survive = math_min(colour_max(throughput) * frame->roulette / body_scale, most);
         RECORD(record_end(&tally->recorder, edge, PATH_ROULETTE);)
         if (!(random_float(u.y.s1) < survive)) break;
         throughput *= 1.0f / survive;
         RECORD(record_end(&tally->recorder, edge, PATH_GOES_ON);)
-        RECORD(record_event(&tally->recorder, edge, sample.event, throughput);)
+        RECORD(record_event(&tally->recorder, edge, sample.event, path_found(&colours, throughput));)
         ray = vertex_spawn(&s, side > 0.0f ? ng : -ng, &hit, direction);
     }
-#if TRIAD_DISPERSION
-    radiance = fma(filter, radiance, before);
-#endif
-    return (float4)(radiance, alpha);
+    return (float4)(path_rgb(&colours, radiance), alpha);
 }
 
 /* What a pixel (x, y) of the crop is called by its samples: its index in the full picture. */

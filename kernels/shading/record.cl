@@ -16,7 +16,7 @@ kernel void record_paths(SCENE_PARAMETERS, global PathRecord* records, global Pa
     const SampleName name = sample_name(&local_frame, film_pixel(&local_frame, x, y), first + item);
     SampleWeight weight;
     const Ray ray = sample_camera_ray(&local_frame, ray_filter, &name, x, y, &weight);
-    Tally tally = {0u, 0u, 0u, 0u, 0u, {paths + item * PATH_VERTICES, 0u, (float3)(1.0f)}};
+    Tally tally = {0u, 0u, 0u, 0u, 0u, {paths + item * PATH_VERTICES, 0u}};
     const float4 value = sample_weighted(path_trace(&scene, &name.path, ray, &tally), weight);
     PathRecord record;
     record.value[0] = value.x, record.value[1] = value.y, record.value[2] = value.z,

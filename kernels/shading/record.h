@@ -14,7 +14,6 @@
 typedef struct Recorder {
     global PathVertex* path; /* PATH_VERTICES of them */
     uint vertices;
-    float3 filter; /* of the path's wavelength; 1 while it has none */
 } Recorder;
 
 TRIAD_FUNCTION global PathVertex* record_at(const Recorder* r, uint edge) {
@@ -44,7 +43,7 @@ TRIAD_FUNCTION void record_end(const Recorder* r, uint edge, uint why) { record_
 
 TRIAD_FUNCTION void record_found(const Recorder* r, uint edge, float3 radiance) {
     global PathVertex* v = record_at(r, edge);
-    vstore3(vload3(0, v->found) + r->filter * radiance, 0, v->found);
+    vstore3(vload3(0, v->found) + radiance, 0, v->found);
 }
 
 /* `pick` is the number that light_sample() picked the light with. */
@@ -53,7 +52,7 @@ TRIAD_FUNCTION void record_direct(const Recorder* r, uint edge, float3 radiance,
     global PathVertex* v = record_at(r, edge);
     float unused;
     v->light = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
-    vstore3(vload3(0, v->direct) + r->filter * radiance, 0, v->direct);
+    vstore3(vload3(0, v->direct) + radiance, 0, v->direct);
 }
 
 TRIAD_FUNCTION void record_event(const Recorder* r, uint edge, uint event, float3 throughput) {

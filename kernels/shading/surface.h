@@ -2,6 +2,7 @@
 #ifndef TRIAD_SHADING_SURFACE_H
 #define TRIAD_SHADING_SURFACE_H
 
+#include "common/colour.h"
 #include "shading/scene.h"
 #include "shading/texture.h"
 
@@ -17,6 +18,9 @@ typedef struct Surface {
     float3 base_colour;
     float metallic, roughness, transmission, specular;
     float3 specular_colour;
+#if TRIAD_HERO
+    Colour base_values, specular_values; /* base_colour and specular_colour at the path's wavelengths */
+#endif
 } Surface;
 
 /* UVs and vertex colour of a point, barycentric weights u, v of corners 1 and 2. */

@@ -19,12 +19,17 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, floa
     global const Material* material = scene->materials + s->material;
     const uint solid = material->flags & MATERIAL_SOLID;
     BsdfInput input;
+#if TRIAD_HERO
+    input.base_colour = s->base_values;
+    input.specular_colour = s->specular_values;
+#else
     input.base_colour = s->base_colour;
+    input.specular_colour = s->specular_colour;
+#endif
     input.metallic = s->metallic;
     input.roughness = s->roughness;
     input.ior = material->ior;
     input.specular = s->specular;
-    input.specular_colour = s->specular_colour;
     input.transmission = s->transmission;
     input.solid = solid != 0u;
     input.inside = (uint)(back && solid);
@@ -41,7 +46,7 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, floa
 #if TRIAD_TRANSMISSION && TRIAD_PRIORITIES
     if (solid && bodies.s0 == beyond.s0 && bodies_before(scene, bodies.s0, s->material)) {
         /* within a body of higher priority there is no surface: equal indices on both sides, and clear */
-        input.base_colour = (float3)(1.0f);
+        input.base_colour = (Colour)(1.0f);
         input.metallic = 0.0f;
         input.transmission = 1.0f;
     }

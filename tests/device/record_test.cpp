@@ -20,12 +20,14 @@ struct Recorded {
 };
 
 /// One pixel of the varied scene, rendered and recorded.
-Recorded record(Scene scene, unsigned x, unsigned y, unsigned bins, unsigned max_depth = 0) {
+Recorded record(Scene scene, unsigned x, unsigned y, unsigned bins, unsigned max_depth = 0,
+                Spectral spectral = Spectral::automatic) {
     validate(scene);
     RenderSettings settings = analytic::varied_settings();
     settings.crop = {x, y, 1, 1};
     settings.bins_x = bins;
     settings.max_depth = max_depth;
+    settings.spectral = spectral;
     Renderer renderer(test_device(), scene, settings);
     renderer.render(range, [](const Progress&) { return true; });
     Recorded r{renderer.film(), {}, renderer.light_sources(), report_pixel(renderer, 0, 0, range, 7)};
@@ -59,6 +61,28 @@ TEST(Record, paths_have_the_bits_of_the_film) {
             EXPECT_EQ(halves, r.film.half_sums);
             EXPECT_EQ(rays, r.film.counters[COUNTER_RAYS]);
         }
+}
+
+TEST(Record, wavelengths_add_up_as_colours_do) {
+    Scene scene = analytic::varied_scene();
+    for (Material& m : scene.materials)
+        if (m.transmission > 0) m.dispersion = find_glass("SF10"), m.roughness = 0.3f;
+    for (const Spectral spectral : {Spectral::automatic, Spectral::full, Spectral::classic}) {
+        const Recorded r = record(scene, 10, 17, 1, 0, spectral);
+        std::int64_t sum = 0;
+        unsigned coloured = 0;
+        for (const RecordedPath& path : r.paths) {
+            const vec3 parts = contributions(path);
+            float size = 0;
+            for (const RecordedVertex& v : path.vertices) size += std::abs(v.found.x) + std::abs(v.direct.x);
+            EXPECT_NEAR(parts.x, path.value[0], 1e-5f * size + 1e-7f);
+            sum += std::llrint(path.value[0] * std::ldexp(1.0f, r.film.quanta_log2));
+            coloured += path.value[0] < 0;
+        }
+        EXPECT_EQ(sum, r.film.sums[0]);
+        if (spectral == Spectral::automatic) EXPECT_GT(coloured, 0u) << "single wavelengths leave the gamut";
+        if (spectral == Spectral::classic) EXPECT_EQ(coloured, 0u) << "they are cut";
+    }
 }
 
 TEST(Record, every_path_is_the_sum_of_what_its_vertices_brought) {

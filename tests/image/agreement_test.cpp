@@ -67,14 +67,15 @@ TEST(Agreement, a_wavelength_for_every_path_shows_the_same_picture) {
     expect_agreement(render(lit_room(1, false), 1000, 1, 0, false, 0.8, Spectral::classic));
 }
 
-/// The room with its glass (if `dispersed`, with a law that gives every wavelength the same index).
-Scene glass_room(bool dispersed, float roughness = 0.0f) {
+/// The room with a ball of absorbing glass, with a dispersion or none.
+Scene glass_room(const std::optional<Dispersion>& dispersion, float roughness = 0.0f) {
     Scene scene = lit_room(1, false);
     const std::size_t material = scene.materials.size();
     Material glass = picture_case::glass(1.5f, roughness);
     glass.attenuation_distance = 0.5f;
     glass.attenuation_colour = {0.9f, 0.6f, 0.4f};
-    if (dispersed) glass.dispersion = Dispersion{Dispersion::Law::cauchy, 0, {1.5}, {}};
+    glass.dispersion = dispersion;
+    if (dispersion) glass.ior = float(dispersion->index(line_d));
     scene.materials.push_back(glass);
     Primitive ball = shapes::lat_long_sphere({0.9f, 0.5f, 0.6f}, 0.45f, 48, 24);
     ball.material = material;
@@ -83,11 +84,42 @@ Scene glass_room(bool dispersed, float roughness = 0.0f) {
     return scene;
 }
 
+/// Without a colour, so that RGB and spectra must agree exactly.
+Scene grey(Scene scene) {
+    for (Material& m : scene.materials) {
+        m.base_colour = vec4(vec3(m.base_colour.x), m.base_colour.w);
+        m.attenuation_colour = vec3(m.attenuation_colour.x);
+    }
+    return scene;
+}
+
 TEST(Agreement, a_dispersion_of_nothing_shows_the_same_picture) {
     for (const float roughness : {0.0f, 0.4f}) {
-        const Agreement found = compare_pictures(render(glass_room(false, roughness), 1100),
-                                                 render(glass_room(true, roughness), 1200));
+        const Dispersion nothing{Dispersion::Law::cauchy, 0, {1.5}, {}};
+        const Agreement found = compare_pictures(render(glass_room({}, roughness), 1100),
+                                                 render(glass_room(nothing, roughness), 1200));
         EXPECT_TRUE(found.agree) << found.sentence();
+    }
+}
+
+TEST(Agreement, four_wavelengths_show_a_grey_room_as_rgb_does) {
+    const Scene room = grey(glass_room({}));
+    const Agreement found =
+        compare_pictures(render(room, 1300), render(room, 1400, 1, 0, false, 0.8, Spectral::full));
+    EXPECT_TRUE(found.agree) << found.sentence();
+}
+
+TEST(Agreement, four_wavelengths_split_as_one_does) {
+    for (const float roughness : {0.0f, 0.4f}) {
+        // from 2.2 at 380 nm to 1.3 at 780 nm
+        const Dispersion strong{Dispersion::Law::cauchy, 0, {1.05, 0.17}, {}};
+        const Scene room = grey(glass_room(strong, roughness));
+        const auto one = render(room, 1500);
+        const Agreement found = compare_pictures(one, render(room, 1600, 1, 0, false, 0.8, Spectral::full));
+        EXPECT_TRUE(found.agree) << "roughness " << roughness << ": " << found.sentence();
+        if (roughness == 0.0f) continue;  // a clear ball hides its dispersion in this noise
+        const Agreement none = compare_pictures(one, render(room, 1700, 1, 0, false, 0.8, Spectral::off));
+        EXPECT_FALSE(none.agree) << "the test would not see dispersion";
     }
 }
 

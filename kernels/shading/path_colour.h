@@ -1,0 +1,158 @@
+/* The colours of a path: RGB, with one wavelength from some vertex on, or (TRIAD_HERO) four wavelengths. What
+ * surfaces and lights say in RGB is turned into them here, and what a path found back into RGB for the film.
+ */
+#ifndef TRIAD_SHADING_PATH_COLOUR_H
+#define TRIAD_SHADING_PATH_COLOUR_H
+
+#include "common/colour.h"
+#include "common/random.h"
+#include "common/spectrum.h"
+#include "shading/vertex_bsdf.h"
+
+#define PATH_WAVELENGTH_SET 2u /* of random numbers: the samples of a pixel share the spectrum out evenly */
+
+#if TRIAD_HERO
+
+/* Wilkie et al. 2014, "Hero Wavelength Spectral Sampling": the first wavelength decides where the path goes,
+ * the others are a quarter of the distribution apart. What is found is weighed over all four as if each had
+ * been the first (balance heuristic). `throughput` of the path is f / (mean over k of share_k p_k). */
+typedef struct PathColour {
+    float4 wavelengths; /* nm */
+    float4 share; /* density of the path so far were that wavelength the first, in proportion; the sum is 4 */
+    float4 basis[3];  /* reflectance of the primaries of Rec.709 */
+    float4 filter[3]; /* R, G, B that each wavelength adds, over its density, divided by 4 */
+} PathColour;
+
+TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+    const float u = sampler_2d(sampler, PATH_WAVELENGTH_SET).x;
+    float nanometres[4], basis[3][4], filter[3][4];
+    for (uint i = 0u; i < 4u; ++i) {
+        float v = fma(0.25f, convert_float(i), u);
+        v -= v >= 1.0f ? 1.0f : 0.0f;
+        float3 f;
+        nanometres[i] = spectrum_sample(scene->spectrum, v, &f);
+        const float3 b = spectrum_basis(scene->spectrum, nanometres[i]);
+        basis[0][i] = b.x, basis[1][i] = b.y, basis[2][i] = b.z;
+        filter[0][i] = 0.25f * f.x, filter[1][i] = 0.25f * f.y, filter[2][i] = 0.25f * f.z;
+    }
+    PathColour c;
+    c.wavelengths = vload4(0, nanometres);
+    c.share = (float4)(1.0f);
+    for (uint k = 0u; k < 3u; ++k) c.basis[k] = vload4(0, basis[k]), c.filter[k] = vload4(0, filter[k]);
+    return c;
+}
+
+TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelengths.x; }
+
+/* Of a reflectance, an absorption, or light that is D65 when white. */
+TRIAD_FUNCTION Colour path_colour(const PathColour* c, float3 rgb) {
+    return fma((Colour)(rgb.x), c->basis[0], fma((Colour)(rgb.y), c->basis[1], rgb.z * c->basis[2]));
+}
+
+TRIAD_FUNCTION float3 path_rgb(const PathColour* c, Colour found) {
+    const float4 r = c->filter[0] * found, g = c->filter[1] * found, b = c->filter[2] * found;
+    return (float3)(r.x + r.y + r.z + r.w, g.x + g.y + g.z + g.w, b.x + b.y + b.z + b.w);
+}
+#define path_found path_rgb
+
+#if TRIAD_DISPERSION
+TRIAD_FUNCTION int path_has_others(const PathColour* c) { return c->share.y > 0.0f; }
+
+/* A mirror-smooth surface sends every wavelength elsewhere: the first goes on alone, for all four. */
+TRIAD_FUNCTION void path_end_others(PathColour* c, Colour* throughput) {
+    const float scale = 4.0f / c->share.x;
+    *throughput = (Colour)(throughput->x * scale, 0.0f, 0.0f, 0.0f);
+    c->share = (float4)(4.0f, 0.0f, 0.0f, 0.0f);
+}
+
+/* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
+TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, const PathColour* c, const Surface* s,
+                                          float3 wo, float3 ng, int back, Bodies bodies, Bodies beyond,
+                                          float3 wi, float4* densities) {
+    float wavelengths[4], values[4], value[4], density[4];
+    vstore4(c->wavelengths, 0, wavelengths);
+    for (uint i = 0u; i < 4u; ++i) {
+        const VertexBsdf v = vertex_bsdf(scene, s, wo, ng, back, bodies, beyond, wavelengths[i]);
+        density[i] = 0.0f;
+        const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
+        vstore4(f, 0, values);
+        value[i] = values[i];
+    }
+    *densities = vload4(0, density);
+    return vload4(0, value);
+}
+
+/* The density of what was drawn, over all choices of the first wavelength. */
+TRIAD_FUNCTION float path_mean_density(const PathColour* c, float4 densities) {
+    return colour_average(c->share * densities);
+}
+#endif
+
+#else
+
+typedef struct PathColour {
+    float wavelength; /* nm; 0: all of them together */
+#if TRIAD_DISPERSION
+    /* what the path finds with one wavelength counts by `filter`; what it found before */
+    float3 filter, before;
+#endif
+} PathColour;
+
+#if TRIAD_DISPERSION
+/* From here on the path has one wavelength. */
+TRIAD_FUNCTION void path_draw_wavelength(PathColour* c, const Scene* scene, const Sampler* sampler,
+                                         float3* radiance) {
+    c->wavelength = spectrum_sample(scene->spectrum, sampler_2d(sampler, PATH_WAVELENGTH_SET).x, &c->filter);
+    c->before = *radiance;
+    *radiance = (float3)(0.0f);
+}
+#endif
+
+TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+    PathColour c;
+    c.wavelength = 0.0f;
+#if TRIAD_DISPERSION
+    c.filter = (float3)(1.0f);
+    c.before = (float3)(0.0f);
+    float3 nothing = (float3)(0.0f);
+    if (scene->frame->wavelength_from_camera) path_draw_wavelength(&c, scene, sampler, &nothing);
+#else
+    (void)scene, (void)sampler;
+#endif
+    return c;
+}
+
+TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelength; }
+TRIAD_FUNCTION Colour path_colour(const PathColour* c, float3 rgb) {
+    (void)c;
+    return rgb;
+}
+
+/* What a contribution adds to the film; path_rgb: all that was found, the last of it since the wavelength was
+ * drawn. */
+#if TRIAD_DISPERSION
+TRIAD_FUNCTION float3 path_found(const PathColour* c, float3 found) { return c->filter * found; }
+TRIAD_FUNCTION float3 path_rgb(const PathColour* c, float3 radiance) {
+    return fma(c->filter, radiance, c->before);
+}
+#else
+TRIAD_FUNCTION float3 path_found(const PathColour* c, float3 found) { return path_colour(c, found); }
+TRIAD_FUNCTION float3 path_rgb(const PathColour* c, float3 radiance) { return path_colour(c, radiance); }
+#endif
+
+#endif
+
+#if TRIAD_TRANSMISSION
+/* What a body lets through over a distance. */
+TRIAD_FUNCTION Colour path_transmittance(const PathColour* c, global const Material* body, float distance) {
+#if TRIAD_HERO
+    const Colour depth = path_colour(c, vload3(0, body->absorption)) * -distance;
+    return (Colour)(math_exp(depth.x), math_exp(depth.y), math_exp(depth.z), math_exp(depth.w));
+#else
+    (void)c;
+    return vertex_transmittance(body, distance);
+#endif
+}
+#endif
+
+#endif
