@@ -416,6 +416,7 @@ TRIAD_SIZE(PathRecord, 32);
 /* When the pipeline from bins to drives (kernels/subpixel/) maps tones */
 #define TONE_PER_PIXEL 0u   /* what the taps have added up */
 #define TONE_PER_BIN 1u     /* every bin, so that the taps add light that a display shows */
+#define TONE_NEVER 3u       /* scene-linear radiance goes through */
 #define TONE_BIN_ENCODED 2u /* every bin, and the taps add its sRGB-encoded values */
 
 /* Some rows of the picture on their way from bins to drives. Values lie in planes, one for each channel and

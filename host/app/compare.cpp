@@ -9,6 +9,7 @@
 
 #include "app/command_line.h"
 #include "app/compare_perceived.h"
+#include "app/metadata.h"
 #include "app/output.h"
 #include "app/report.h"
 #include "io/io.h"
@@ -55,6 +56,8 @@ constexpr Metric metrics[] = {
 /// other.
 Compared read(const CompareOptions& o) {
     const Picture a = read_picture(o.picture), b = read_picture(o.reference);
+    refuse_for_panel(o.picture, a.metadata, "compare");
+    refuse_for_panel(o.reference, b.metadata, "compare");
     auto size = [](const Picture& p) { return std::to_string(p.width) + "x" + std::to_string(p.height); };
     if (a.width != b.width || a.height != b.height)
         throw Error(Exit::comparison, "The pictures differ in size: " + o.picture + " is " + size(a) + ", " +

@@ -18,13 +18,23 @@ struct MergeOptions {
     std::uint64_t expected_spp = 0;
 };
 
+/// Pictures are no films; one that was made for a panel is refused for that.
+Film load_part(const std::string& path) {
+    try {
+        return load_film(path);
+    } catch (const Error&) {
+        if (is_picture(path)) refuse_for_panel(path, read_picture(path).metadata, "merge");
+        throw;
+    }
+}
+
 Exit run(const MergeOptions& o) {
     check_writable(o.output);
     // One part at a time: two films are in memory, however many parts there are.
-    Film whole = load_film(o.parts.front());
+    Film whole = load_part(o.parts.front());
     for (std::size_t i = 1; i < o.parts.size(); ++i) {
         try {
-            const Film pair[] = {std::move(whole), load_film(o.parts[i])};
+            const Film pair[] = {std::move(whole), load_part(o.parts[i])};
             whole = merge(pair);
         } catch (const Error& error) {
             throw Error(error.exit(), o.parts[i] + ": " + error.what());

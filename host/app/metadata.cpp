@@ -52,6 +52,33 @@ Metadata metadata_of(const Film& film) {
     return metadata;
 }
 
+void describe(const Reconstruction& method, Metadata& metadata) {
+    if (method.method.empty()) return;
+    metadata["triad:reconstruct"] = method.method;
+    if (!method.filter.empty()) metadata["triad:filter"] = method.filter;
+    if (!method.panel) return;
+    metadata["triad:panel"] = method.panel->panel.name;
+    metadata["triad:ppd"] = number(method.panel->ppd);
+}
+
+void refuse_for_panel(const std::string& path, const Metadata& metadata, const std::string& purpose) {
+    const auto panel = metadata.find("triad:panel");
+    if (panel == metadata.end()) return;
+    throw Error(Exit::usage, path + " was made for the panel " + panel->second +
+                                 ": its values drive that panel's emitters and are no colours of pixels, so "
+                                 "that Triad does not " +
+                                 purpose + " it. Give the picture without --panel, or its film.");
+}
+
+std::uint64_t film_bytes(const Film& film) {
+    return film.sums.size() * sizeof film.sums[0] + film.half_sums.size() * sizeof film.half_sums[0] +
+           film.samples.size() * sizeof film.samples[0];
+}
+
+bool has_filtered_rays(const Film& film) {
+    return settings_of(film).value("ray_start", 0.0) == double(RayStart::filter);
+}
+
 Json spp_json(const SampleNumbers& numbers) {
     return numbers.least == numbers.most ? Json(numbers.least) : Json(numbers.mean);
 }

@@ -80,7 +80,7 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
                                          " pixels.");
         settings.crop = {(*o.pixel)[0], (*o.pixel)[1], 1, 1};
     }
-    settings.bins_x = o.bins_x, settings.bins_y = o.bins_y;
+    apply(o.style.reconstruction, settings);
     settings.seed = o.seed;
     settings.max_depth = o.max_depth;
     settings.roulette = o.roulette;

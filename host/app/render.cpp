@@ -134,6 +134,8 @@ Exit run(RenderOptions o) {
     const double render_s = result.seconds;
     const Film film = renderer.film();
     const SampleNumbers numbers = film.sample_numbers();
+    detail("The film has " + bytes_text(film_bytes(film)) + ", " + std::to_string(film.bins()) +
+           (film.bins() == 1 ? " bin per pixel" : " bins per pixel"));
     const bool complete = result.stop != Stop::interrupt;
 
     Metadata metadata = metadata_of(film);
@@ -144,6 +146,7 @@ Exit run(RenderOptions o) {
         o.scene_path.empty() ? "built-in" : std::filesystem::path(o.scene_path).filename().string();
     metadata["triad:machine"] = machine_words();
     metadata["triad:compute_units"] = std::to_string(device.info().compute_units);
+    describe(o.style.reconstruction, metadata);
     if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
     if (!o.film_path.empty()) save_film(o.film_path, film);
     write_outputs(o.outputs, device, film, o.style, layers_of(o, renderer, film), metadata);
@@ -177,6 +180,9 @@ Exit run(RenderOptions o) {
                           {"device", device.info().name},
                           {"driver", device.info().driver},
                           {"device_bytes", renderer.device_bytes()},
+                          {"film_bytes", film_bytes(film)},
+                          {"bins", {film.bins_x, film.bins_y}},
+                          {"reconstruct", o.style.reconstruction.method},
                           {"left_out", left_out(renderer.features())},
                           {"not_finite", n[COUNTER_NOT_FINITE]},
                           {"saturated", n[COUNTER_SATURATED]},

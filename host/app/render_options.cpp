@@ -171,6 +171,7 @@ void declare(CLI::App& command, RenderOptions& o) {
         ->allow_extra_args(false)
         ->group(output_group);
     declare_style(command, o.style);
+    declare(command, o.reconstruct);
     command
         .add_option("--aov", o.aovs,
                     "Layers for EXR files: albedo, normal, position, depth, samples, variance, error, or all")
@@ -179,14 +180,6 @@ void declare(CLI::App& command, RenderOptions& o) {
         ->check(
             CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}))
         ->type_name("LIST")
-        ->group(output_group);
-    add_parsed(command, "--bins", "BXxBY", "Bins of the film per pixel (default 1x1)",
-               [&o](const std::string& v) {
-                   const uvec2 bins = parse_size("--bins", v);
-                   if (std::max(bins.x, bins.y) > 16)
-                       throw Error(Exit::usage, "--bins " + v + ": at most 16x16.");
-                   o.bins_x = bins.x, o.bins_y = bins.y;
-               })
         ->group(output_group);
     command.add_option("--film", o.film_path, "Also write the film, for triad merge and triad resolve")
         ->type_name("FILE")
@@ -216,7 +209,8 @@ void declare(CLI::App& command, RenderOptions& o) {
 
 RenderGoal RenderOptions::goal() const {
     const bool ends_itself = error || time;
-    const std::uint64_t limit = spp.value_or(ends_itself ? most_samples : 64);
+    const unsigned bins = style.reconstruction.bins_x * style.reconstruction.bins_y;
+    const std::uint64_t limit = whole_bins(spp.value_or(ends_itself ? most_samples : 64), bins);
     return {.samples = samples.value_or(SampleRange{0, limit}),
             .error = error.value_or(0),
             .seconds = time.value_or(0),
@@ -245,6 +239,12 @@ void complete(RenderOptions& o) {
             Exit::usage,
             "--samples names exactly what is rendered: it cannot be combined with --spp, --error, --time or "
             "--adaptive on.");
+    o.style.reconstruction = o.reconstruct.make();
+    const std::uint64_t bins = o.style.reconstruction.bins_x * o.style.reconstruction.bins_y;
+    if (o.samples && (o.samples->begin % bins != 0 || o.samples->end % bins != 0))
+        throw Error(Exit::usage, "--samples: with " + std::to_string(bins) +
+                                     " bins per pixel, ranges begin and end at multiples of " +
+                                     std::to_string(bins) + ", so that every bin has as many samples.");
     if (o.crop && ((*o.crop)[2] == 0 || (*o.crop)[3] == 0))
         throw Error(Exit::usage, "--crop: width and height must be at least 1.");
 }

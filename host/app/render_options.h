@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/output.h"
+#include "app/reconstruct_options.h"
 #include "base/math.h"
 #include "render/schedule.h"
 #include "render/settings.h"
@@ -30,7 +31,7 @@ struct RenderOptions {
     double roulette = RenderSettings{}.roulette;
     bool independent = false;  ///< samples, instead of Sobol's sequence
     Spectral spectral = Spectral::automatic;
-    unsigned bins_x = 1, bins_y = 1;
+    ReconstructOptions reconstruct;
     std::string device;
     unsigned threads = 0;
 
@@ -45,7 +46,7 @@ struct RenderOptions {
     double env_rotate = 0;  ///< degrees
     double env_strength = 1;
     bool transparent = false;
-    OutputStyle style;  ///< exposure, tone map, background colour, half
+    OutputStyle style;  ///< exposure, tone map, background colour, half; complete() adds the reconstruction
     std::vector<std::string> aovs;
     std::string progress = "auto";
 

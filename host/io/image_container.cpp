@@ -42,6 +42,12 @@ void check_size(const std::string& name, std::uint64_t width, std::uint64_t heig
                          std::to_string(max_image_pixels) + " in all");
 }
 
+/// Keeps a text that Triad wrote; others', and long ones, are of no use.
+void keep_note(CleanImage& clean, std::string_view key, std::string_view value) {
+    if (key.starts_with("triad:") && key.size() <= 64 && value.size() <= 256)
+        clean.notes.emplace(std::string(key), std::string(value));
+}
+
 constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 
 /// PNG (ISO/IEC 15948) 5.3: length, type, data, CRC. Kept are the critical chunks and tRNS.
@@ -72,6 +78,11 @@ CleanImage clean_png(const std::string& name, Span b) {
         if (critical && !known)
             refuse(name, "it has a PNG chunk of unknown meaning that readers must understand");
         if (critical || type == "tRNS") append(clean.bytes, b.subspan(at, length + 12));
+        if (type == "tEXt") {
+            const std::string_view text(reinterpret_cast<const char*>(b.data()) + at + 8, length);
+            if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+                keep_note(clean, text.substr(0, zero), text.substr(zero + 1));
+        }
         at += length + 12;
         if (type == "IEND") break;
     }
@@ -108,6 +119,15 @@ CleanImage clean_jpeg(const std::string& name, Span b) {
             if (length < 8) refuse(name, "the JPEG frame header is damaged");
             clean.height = big16(segment, 5), clean.width = big16(segment, 7);
             check_size(name, clean.width, clean.height);
+        }
+        if (marker == 0xfe) {  // a comment: lines of key=value, as Triad writes them
+            std::string_view text(reinterpret_cast<const char*>(segment.data()) + 4, segment.size() - 4);
+            while (!text.empty()) {
+                const std::string_view line = text.substr(0, text.find('\n'));
+                if (const std::size_t equals = line.find('='); equals != std::string_view::npos)
+                    keep_note(clean, line.substr(0, equals), line.substr(equals + 1));
+                text.remove_prefix(std::min(text.size(), line.size() + 1));
+            }
         }
         if (marker == 0xee && has(segment, 4, "Adobe") && length >= 14) {
             append(clean.bytes, std::array<std::uint8_t, 4>{0xff, 0xee, 0, 14});

@@ -3,6 +3,7 @@
 /// everything but the pixels before a decoder sees them. Colour profiles, EXIF and XMP have crashed decoders;
 /// Triad uses none of them.
 #include <cstdint>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct CleanImage {
     ImageFormat format = ImageFormat::unknown;
     unsigned width = 0, height = 0;
     std::vector<std::uint8_t> bytes;
+    std::map<std::string, std::string> notes;  ///< Triad's own text ("triad:...") of PNG and JPEG, short ones
 };
 
 /// Strips PNG, JPEG or WebP bytes. Throws Error(scene) with `name` when the container is damaged, is none of

@@ -47,7 +47,8 @@ struct Picture {
     unsigned x = 0, y = 0;                     ///< where the data lie in the full picture
     unsigned full_width = 0, full_height = 0;  ///< 0: as the data
     std::vector<Channel> channels;
-    Metadata metadata;
+    Metadata metadata;     ///< of PNG and JPEG: Triad's own
+    bool encoded = false;  ///< read from integers: sRGB-encoded, alpha unassociated
     const Channel* find(const std::string& name) const;
 };
 

@@ -52,8 +52,10 @@ Picture read_picture(const std::filesystem::path& path) {
     if (format == ImageFormat::hdr) return read_channels(name, "hdr", clean_hdr(name, bytes).bytes);
     if (format != ImageFormat::png && format != ImageFormat::jpeg)
         throw Error(Exit::scene, "Image " + name + " is no EXR, PNG, JPEG or Radiance .hdr.");
-    Picture picture =
-        read_channels(name, format == ImageFormat::png ? "png" : "jpeg", clean_image(name, bytes).bytes);
+    const CleanImage clean = clean_image(name, bytes);
+    Picture picture = read_channels(name, format == ImageFormat::png ? "png" : "jpeg", clean.bytes);
+    picture.metadata = clean.notes;
+    picture.encoded = true;
     if (picture.channels.size() <= 2) {  // grey, with or without alpha
         const Channel grey = picture.channels[0];
         picture.channels.insert(picture.channels.begin(), 2, grey);

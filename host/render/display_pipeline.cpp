@@ -37,6 +37,8 @@ std::uint32_t code_of(ToneOrder order) {
             return TONE_PER_PIXEL;
         case ToneOrder::per_bin:
             return TONE_PER_BIN;
+        case ToneOrder::never:
+            return TONE_NEVER;
         case ToneOrder::per_bin_encoded:
             return TONE_BIN_ENCODED;
     }

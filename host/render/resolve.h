@@ -18,6 +18,7 @@ enum class ToneMap { none, khronos, aces, agx };
 enum class ToneOrder {
     per_pixel,       ///< what the taps have added up: radiance
     per_bin,         ///< every bin, so that the taps add light that a display shows
+    never,           ///< scene-linear radiance goes through, negative values too; alpha is cut to [0, 1]
     per_bin_encoded  ///< every bin, and the taps add its sRGB-encoded values
 };
 
@@ -38,14 +39,14 @@ struct DisplaySettings {
 struct BinImage {
     unsigned columns = 0, rows = 0;   ///< bins
     unsigned bins_x = 1, bins_y = 1;  ///< of a pixel; the last pixels reflect the bins they lack
-    std::vector<float> rgba;          ///< [row][column][R, G, B, alpha], colour associated
+    std::vector<float> rgba;          ///< [row][column][R, G, B, alpha], colour associated unless encoded
     bool encoded = false;  ///< sRGB-encoded and tone-mapped already: exposure and tone map are not applied
 
     unsigned width() const { return (columns + bins_x - 1) / bins_x; }  ///< pixels
     unsigned height() const { return (rows + bins_y - 1) / bins_y; }
 };
 
-/// Display-linear RGBA per pixel of the film's crop, row-major, in [0, 1], colour associated with alpha. At
+/// Display-linear RGBA (ToneOrder::never: scene-linear) per pixel of the film's crop, row-major, in [0, 1], colour associated with alpha. At
 /// the edges the picture goes on as its mirror image. Computed in float, some rows at a time, so that no
 /// piece of device memory is larger than the device allows. Throws DeviceError, Error(usage) for a tap table
 /// that does not fit the bins.

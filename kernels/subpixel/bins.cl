@@ -64,7 +64,7 @@ kernel void map_film(global const DisplaySlab* slab, global const long* sums, gl
     }
 }
 
-/* image: [row][column][R, G, B, alpha], colour associated. */
+/* image: [row][column][R, G, B, alpha], colour associated; of encoded ones not, as in their files. */
 kernel void map_image(global const DisplaySlab* slab, global const float* image, global float* planes,
                       uint items) {
     const uint item = (uint)get_global_id(0);
@@ -74,7 +74,7 @@ kernel void map_image(global const DisplaySlab* slab, global const float* image,
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
         float4 v = vload4(row + bin_column(slab, &run, lane), image);
         if (slab->encoded)
-            v.xyz = srgb_decode3(v.xyz);
+            v.xyz = srgb_decode3(v.xyz) * v.w;
         else
             v.xyz *= slab->exposure;
         bin_store(slab, planes, &run, lane, display_of_bin(slab, v));

@@ -29,7 +29,7 @@ TRIAD_FUNCTION float4 display_light(global const DisplaySlab* slab, float4 radia
 
 /* What the taps are to add up, from the radiance in a bin (encoded sources: display-linear light). */
 TRIAD_FUNCTION float4 display_of_bin(global const DisplaySlab* slab, float4 radiance) {
-    if (slab->order == TONE_PER_PIXEL) return radiance;
+    if (slab->order == TONE_PER_PIXEL || slab->order == TONE_NEVER) return radiance;
     float4 v = display_light(slab, radiance);
     if (slab->order == TONE_BIN_ENCODED) v.xyz = srgb_encode3(v.xyz);
     return v;

@@ -26,13 +26,15 @@ typedef float Lanes;
 #define LANES_WHERE(condition, v) ((condition) ? (v) : 0.0f)
 #endif
 
+/* Four sums side by side: shorter chains round less, and do not wait for each other. */
 TRIAD_FUNCTION Lanes lanes_sum(global const float* in, global const int* offsets,
                                global const float* weights) {
-    Lanes sum = (Lanes)(0.0f);
+    Lanes sums[4];
+    for (uint i = 0u; i < 4u; ++i) sums[i] = (Lanes)(0.0f);
 #pragma unroll
     for (uint tap = 0u; tap < DISPLAY_TAPS; ++tap)
-        sum = fma((Lanes)(weights[tap]), LANES_LOAD(in + offsets[tap]), sum);
-    return sum;
+        sums[tap & 3u] = fma((Lanes)(weights[tap]), LANES_LOAD(in + offsets[tap]), sums[tap & 3u]);
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 TRIAD_FUNCTION Lanes lanes_saturate(Lanes v) {
     return v > 0.0f ? (v < 1.0f ? v : (Lanes)(1.0f)) : (Lanes)(0.0f);
@@ -103,8 +105,8 @@ kernel void refine_step(global const float* asked, global float* shown, global c
     LANES_STORE(LANES_WHERE(LANES_INDICES < r.inside, ahead - d0), next_error + r.at);
 }
 
-/* display: [pixel][R, G, B, alpha] of `rows` rows, display-linear in [0, 1]. drives: from the slab's first
- * pixel on; the planes of a channel are its cell_x columns. */
+/* display: [pixel][R, G, B, alpha] of `rows` rows, display-linear in [0, 1] (TONE_NEVER: as it is). drives:
+ * from the slab's first pixel on; the planes of a channel are its cell_x columns. */
 kernel void gather_drives(global const DisplaySlab* slab, global const float* drives, global float* display,
                           uint rows, uint first, uint stride, uint plane_floats) {
     const uint item = (uint)get_global_id(0), x = item % slab->width, row = item / slab->width;
@@ -115,5 +117,8 @@ kernel void gather_drives(global const DisplaySlab* slab, global const float* dr
     const float4 sum = (float4)(drives[at], drives[at + channel], drives[at + 2 * channel],
                                 slab->channels == 4u ? drives[at + 3 * channel] : 1.0f);
     const float4 v = display_of_sum(slab, sum);
-    vstore4((float4)(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z), v.w), item, display);
+    vstore4(slab->order == TONE_NEVER
+                ? v
+                : (float4)(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z), v.w),
+            item, display);
 }

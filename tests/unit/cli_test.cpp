@@ -88,3 +88,18 @@ TEST(CommandLine, a_full_disk_leaves_an_older_report_as_it_was) {
     fs::remove_all(folder);
     EXPECT_EQ(run_triad("devices --json - >/dev/full").exit, 2);
 }
+
+TEST(CommandLine, reconstruction_that_makes_no_sense_is_refused) {
+    expect("render --reconstruct triads", 1, "pane-encoded:N");
+    expect("render --reconstruct triad", 1, "--panel");
+    expect("render --reconstruct ssaa:40", 1, "1 to 16");
+    expect("render --reconstruct pane:2 --panel rgb", 1, "leave --panel out");
+    expect("render --filter bos", 1, "blackman-harris");
+    expect("render --filter box:0", 1, "above 0");
+    expect("render --panel no-such-panel", 1, "no-such-panel");
+    expect("render --ppd 45", 1, "--panel");
+    expect("render --panel rgb --distance 600", 1, "--pitch");
+    expect("render --panel rgb --bins 17x17", 1, "16x16");
+    expect("render --bins 3x3 --samples 0:10", 1, "multiples of 9");
+    expect("resolve /no/such/file.png -o /tmp/x.png", 2, "/no/such/file.png");
+}

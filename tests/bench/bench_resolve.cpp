@@ -1,0 +1,98 @@
+// What the way from bins to drives costs, stage by stage: tone maps, taps, refinement. Milliseconds per
+// megapixel of the picture, 3 x 3 bins, on the device of the first argument (a --device selector).
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <vector>
+
+#include "render/reconstruction.h"
+
+using namespace triad;
+
+namespace {
+
+constexpr unsigned width = 3840, height = 270;
+constexpr int rounds = 5;
+
+Film random_film() {
+    std::mt19937 random(1);
+    Film film;
+    film.full_width = film.width = width, film.full_height = film.height = height;
+    film.bins_x = film.bins_y = 3;
+    film.quanta_log2 = 30;
+    film.sums.resize(film.pixels() * film.bins() * 4);
+    for (std::size_t i = 0; i < film.sums.size(); ++i)
+        film.sums[i] =
+            i % 4 == 3 ? std::int64_t(1) << 30 : std::int64_t(random() % 4 ? random() >> 3 : random());
+    film.samples.assign(film.pixels(), 9);
+    film.ranges = {{0, 9}};
+    return film;
+}
+
+/// Median over rounds of the milliseconds per megapixel of each kernel.
+std::map<std::string, double> measure(const std::string& selector, const Film& film,
+                                      const DisplaySettings& settings) {
+    std::map<std::string, std::vector<double>> all;
+    Device device = Device::open({.selector = selector, .profile = true});
+    resolve_display(device, film, settings);  // compiles
+    std::map<std::string, KernelTime> before = device.times();
+    for (int i = 0; i < rounds; ++i) {
+        resolve_display(device, film, settings);
+        const std::map<std::string, KernelTime> after = device.times();
+        for (const auto& [kernel, time] : after)
+            all[kernel].push_back((time.seconds - before[kernel].seconds) * 1e3 /
+                                  (double(film.pixels()) * 1e-6));
+        before = after;
+    }
+    std::map<std::string, double> medians;
+    for (auto& [kernel, values] : all) {
+        std::sort(values.begin(), values.end());
+        medians[kernel] = values[values.size() / 2];
+    }
+    return medians;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const std::string selector = argc > 1 ? argv[1] : "";
+    const Film film = random_film();
+    std::printf("Milliseconds per megapixel, kernel by kernel\n");
+    const auto print = [&](const char* what, const DisplaySettings& settings) {
+        std::printf("%-44s", what);
+        for (const auto& [kernel, ms] : measure(selector, film, settings))
+            std::printf(" %s %.1f", kernel.c_str(), ms);
+        std::printf("\n");
+        std::fflush(stdout);
+    };
+    DisplaySettings box;
+    box.taps = filter_taps({}, 3, 3);
+    box.alpha = false;
+    for (const auto& [name, map] : {std::pair("tone map none, box 3+3", ToneMap::none),
+                                    {"tone map khronos, box 3+3", ToneMap::khronos},
+                                    {"tone map aces, box 3+3", ToneMap::aces},
+                                    {"tone map agx, box 3+3", ToneMap::agx}}) {
+        box.tone_map = map;
+        print(name, box);
+    }
+    const Panel rgb = *builtin_panel("rgb"), pentile = *builtin_panel("pentile");
+    DisplaySettings settings = box;
+    settings.tone_map = ToneMap::none;
+    settings.taps = design_taps(rgb, 45, {.separable = true});
+    print("rgb, 9+9", settings);
+    settings.taps = design_taps(rgb, 45);
+    print("rgb, 9x9", settings);
+    settings.refine = design_refine(rgb, 45);
+    print("rgb, 9x9, refined 8", settings);
+    settings.taps = design_taps(pentile, 45);
+    settings.refine.reset();
+    print("pentile", settings);
+    settings.refine = design_refine(pentile, 45);
+    print("pentile, refined 8", settings);
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+}
