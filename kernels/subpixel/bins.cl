@@ -12,8 +12,9 @@
 /* What a work-item fills: row `row` of the planes of column `column` of the cell, from cell `cell` on. */
 typedef struct BinRun {
     uint row, column, cell;
-    uint source_row; /* row of bins of the picture */
-    size_t at;       /* in a plane of channel 0 */
+    uint source_row;     /* row of bins of the picture */
+    uint pixel_x, bin_x; /* of the column: pixel of the cell, bin of the pixel */
+    size_t at;           /* in a plane of channel 0 */
 } BinRun;
 
 TRIAD_FUNCTION BinRun bin_run(global const DisplaySlab* slab, uint item) {
@@ -23,14 +24,21 @@ TRIAD_FUNCTION BinRun bin_run(global const DisplaySlab* slab, uint item) {
     run.column = item / runs % columns;
     run.row = item / runs / columns;
     run.source_row = display_reflect(slab->first_row + (int)run.row, slab->rows);
+    run.pixel_x = run.column / slab->bins[0];
+    run.bin_x = run.column % slab->bins[0];
     run.at = (size_t)run.column * slab->plane + (size_t)run.row * slab->stride + run.cell;
     return run;
 }
 
-/* Column of bins of the picture that lane `lane` of the run takes. */
-TRIAD_FUNCTION uint bin_column(global const DisplaySlab* slab, const BinRun* run, uint lane) {
-    const int cell = (int)(run->cell + lane) - (int)slab->left;
-    return display_reflect(cell * (int)(slab->cell_x * slab->bins[0]) + (int)run->column, slab->columns);
+/* Column of bins of the picture that lane `lane` of the run takes: its pixel, and the bin of that. Divisions
+ * only beyond the edges. */
+TRIAD_FUNCTION uint2 bin_column(global const DisplaySlab* slab, const BinRun* run, uint lane) {
+    const int cell = (int)(run->cell + lane) - (int)slab->left, bins = (int)slab->bins[0];
+    const int column = cell * (int)slab->cell_x * bins + (int)run->column;
+    if (column >= 0 && column < (int)slab->columns)
+        return (uint2)((uint)cell * slab->cell_x + run->pixel_x, run->bin_x);
+    const uint inside = display_reflect(column, slab->columns);
+    return (uint2)(inside / (uint)bins, inside % (uint)bins);
 }
 
 TRIAD_FUNCTION void bin_store(global const DisplaySlab* slab, global float* planes, const BinRun* run,
@@ -54,11 +62,11 @@ kernel void map_film(global const DisplaySlab* slab, global const long* sums, gl
     const size_t row = (size_t)(run.source_row / slab->bins[1] - slab->source_row) * slab->width;
     const uint first_bin = run.source_row % slab->bins[1] * bins_x;
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
-        const uint column = bin_column(slab, &run, lane);
-        const size_t pixel = row + column / bins_x;
+        const uint2 column = bin_column(slab, &run, lane);
+        const size_t pixel = row + column.x;
         const uint count = samples[pixel];
         const float unit = count > 0u ? slab->unit * convert_float(bins) / convert_float(count) : 0.0f;
-        float4 v = convert_float4(vload4(pixel * bins + first_bin + column % bins_x, sums)) * unit;
+        float4 v = convert_float4(vload4(pixel * bins + first_bin + column.y, sums)) * unit;
         v.xyz *= slab->exposure;
         bin_store(slab, planes, &run, lane, display_of_bin(slab, v));
     }
@@ -72,7 +80,8 @@ kernel void map_image(global const DisplaySlab* slab, global const float* image,
     const BinRun run = bin_run(slab, item);
     const size_t row = (size_t)(run.source_row - slab->source_row) * slab->columns;
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
-        float4 v = vload4(row + bin_column(slab, &run, lane), image);
+        const uint2 column = bin_column(slab, &run, lane);
+        float4 v = vload4(row + column.x * slab->bins[0] + column.y, image);
         if (slab->encoded)
             v.xyz = srgb_decode3(v.xyz) * v.w;
         else

@@ -98,8 +98,8 @@ TRIAD_FUNCTION float3 tone_map(uint which, float3 radiance) {
 TRIAD_FUNCTION float4 tone_map_associated(uint which, float4 v) {
     const float alpha = math_saturate(v.w);
     if (alpha == 0.0f) return (float4)(0.0f);
-    const float3 c = tone_map(which, v.xyz / alpha) * alpha;
-    return (float4)(c, alpha);
+    if (alpha == 1.0f) return (float4)(tone_map(which, v.xyz), 1.0f);
+    return (float4)(tone_map(which, v.xyz / alpha) * alpha, alpha);
 }
 
 #endif
