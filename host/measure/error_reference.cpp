@@ -25,6 +25,7 @@ RenderSettings reference_settings(const RenderSettings& settings) {
     r.width = settings.width, r.height = settings.height, r.crop = settings.crop;
     r.max_depth = settings.max_depth;
     r.transparent = settings.transparent;
+    r.spectral = settings.spectral;
     r.view = settings.view;
     r.environment_rotation = settings.environment_rotation;
     r.environment_strength = settings.environment_strength;

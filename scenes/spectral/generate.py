@@ -142,7 +142,7 @@ def droplet():
     """Descartes' flask: a ball of water before a screen, lit by a sun of three degrees through a window in it. The bow is on the
     screen, 42 degrees around the window's middle."""
     scene = Gltf()
-    put(scene, shapes.sphere(1.0, 128, 256), glass(scene, "water", "water"), "drop")
+    put(scene, shapes.sphere(1.0, 72, 144), glass(scene, "water", "water"), "drop")
     paper = surface(scene, "screen", (0.9, 0.9, 0.9), lambert=True)
     for x0, y0, w, h in ((-6, -6, 5, 12), (1, -6, 5, 12), (-1, -6, 2, 5), (-1, 1, 2, 5)):
         put(scene, shapes.quad((x0, y0, 3), (0, h, 0), (w, 0, 0)), paper, "screen")
