@@ -13,10 +13,14 @@ namespace {
 using Complex = std::complex<double>;
 using Block = std::array<std::array<Complex, 3>, 3>;
 
-constexpr int pixels = 64;         // of the period
-constexpr int n = 3 * pixels;      // subpixels
-constexpr int reach = 7;           // subpixels on each side that a filter keeps
-constexpr double solvable = 1e-6;  // of the trace: where the eye sees no subpixel, any drive would do
+constexpr int pixels = 64;     // of the period
+constexpr int n = 3 * pixels;  // subpixels
+constexpr int reach = 7;       // subpixels on each side that a filter keeps
+
+/// Of the trace: where the eye sees no single subpixel, any drive would do. Each kind of filter gets what is
+/// best for it at 45 pixels per degree; with less, the nine amplify what nobody sees until it is cut at black
+/// and white.
+constexpr double ridge_of_nine = 1e-3, ridge_of_three = 1e-6;
 
 /// f[output][input][offset + n / 2]: what an input at subpixel i adds to the output at i + offset.
 using Filters = std::array<std::array<std::array<double, n>, 3>, 3>;
@@ -66,7 +70,7 @@ Complex wave(int k, int at) { return std::polar(1.0, -2 * pi * k * at / n); }
 
 /// Every frequency of the pixels is three of the subpixels, in which all three drives of a pixel take part: a
 /// block of 3 x 3 equations.
-Filters filters_of(const Panel& panel, const Stripes& stripes, double ppd) {
+Filters filters_of(const Panel& panel, const Stripes& stripes, double ppd, double solvable) {
     const PanelLight light = panel_light(panel);
     const EyeResponse eye(Eye::scielab, light.white);
     Filters filters{};
@@ -117,7 +121,7 @@ std::vector<float> cut(const std::array<double, n>& filter, double wanted) {
 TapTable platt_taps(const Panel& panel, double ppd, bool nine) {
     check_design(ppd, 3, 1);
     const Stripes stripes = stripes_of(panel);
-    const Filters filters = filters_of(panel, stripes, ppd);
+    const Filters filters = filters_of(panel, stripes, ppd, nine ? ridge_of_nine : ridge_of_three);
     constexpr unsigned width = 2 * reach + 1;
     TapTable table{stripes.along_y ? 1u : 3u, stripes.along_y ? 3u : 1u, 1, 1, {}};
     for (unsigned c = 0; c < 3; ++c) {

@@ -1,0 +1,105 @@
+#include "measure/subpixel_source.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "base/colour.h"
+
+namespace triad {
+namespace {
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// As a display with 8 bits has them.
+RgbImage shown(unsigned width, unsigned height, const std::vector<float>& rgba) {
+    RgbImage image{width, height, std::vector<float>(std::size_t(width) * height * 3)};
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        const double encoded = srgb_encode(std::clamp(double(rgba[i / 3 * 4 + i % 3]), 0.0, 1.0));
+        image.rgb[i] = float(srgb_decode(std::round(encoded * 255) / 255));
+    }
+    return image;
+}
+
+RgbImage rgb_of(unsigned width, unsigned height, const std::vector<float>& rgba) {
+    RgbImage image{width, height, std::vector<float>(std::size_t(width) * height * 3)};
+    for (std::size_t i = 0; i < image.rgb.size(); ++i)
+        image.rgb[i] = std::clamp(rgba[i / 3 * 4 + i % 3], 0.0f, 1.0f);
+    return image;
+}
+
+class RenderedSource : public SubpixelSource {
+  public:
+    RenderedSource(Device& device, const RenderedView& view) : device_(device), view_(view) {
+        RenderSettings large = view.settings;
+        large.width *= view.samples, large.height *= view.samples;
+        large.seed = view.settings.seed + 0x5eed;
+        Renderer renderer(device, *view.scene, large);
+        renderer.render({0, view.reference_spp}, [](const Progress&) { return true; });
+        const Film film = renderer.film();
+        reference_ = rgb_of(film.width, film.height, resolve_display(device, film, display()));
+    }
+
+    const RgbImage& reference() const override { return reference_; }
+    unsigned samples() const override { return view_.samples; }
+
+    SubpixelShot shoot(const SubpixelMethod& method, unsigned rays, std::uint32_t seed) override {
+        const std::uint64_t spp = whole_bins(rays, method.how.bins_x * method.how.bins_y);
+        const Shared& shared = film_of(method, spp, seed);
+        DisplaySettings settings = display();
+        apply(method.how, settings);
+        const double start = now();
+        const auto rgba = resolve_display(device_, shared.film, settings);
+        return {shown(shared.film.width, shared.film.height, rgba), shared.film.sample_numbers().mean,
+                shared.seconds + now() - start};
+    }
+
+  private:
+    struct Shared {
+        Film film;
+        double seconds = 0;
+    };
+
+    DisplaySettings display() const {
+        DisplaySettings settings;
+        settings.exposure_ev = view_.exposure_ev, settings.tone_map = view_.tone_map, settings.alpha = false;
+        return settings;
+    }
+
+    /// Methods with the same rays share the film of a seed.
+    const Shared& film_of(const SubpixelMethod& method, std::uint64_t spp, std::uint32_t seed) {
+        RenderSettings settings = view_.settings;
+        apply(method.how, settings);
+        const std::string rays = text_of(settings);
+        const std::string key =
+            rays + " " + std::to_string(spp) + " " + std::to_string(seed) + (method.adaptive ? "a" : "");
+        if (const auto found = films_.find(key); found != films_.end()) return found->second;
+        if (seed != seed_ || spp_ > spp) films_.clear();  // those of another run are wanted no more
+        seed_ = seed, spp_ = spp;
+        auto& renderer = renderers_[rays];
+        if (!renderer) renderer = std::make_unique<Renderer>(device_, *view_.scene, settings);
+        renderer->restart(seed);
+        RenderGoal goal;
+        goal.samples = {0, spp}, goal.adaptive = method.adaptive, goal.follow = false;
+        const RenderResult result = renderer->render_until(goal, [](const Progress&) { return true; });
+        return films_[key] = {renderer->film(), result.seconds};
+    }
+
+    Device& device_;
+    const RenderedView view_;
+    RgbImage reference_;
+    std::map<std::string, std::unique_ptr<Renderer>> renderers_;
+    std::map<std::string, Shared> films_;
+    std::uint32_t seed_ = 0;
+    std::uint64_t spp_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<SubpixelSource> rendered_source(Device& device, const RenderedView& view) {
+    return std::make_unique<RenderedSource>(device, view);
+}
+
+}  // namespace triad

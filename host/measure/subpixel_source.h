@@ -1,0 +1,52 @@
+#pragma once
+/// What the subpixel bench reconstructs: rendered scenes, and pictures of many samples per pixel that stand
+/// for scenes.
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/rgb_image.h"
+#include "render/reconstruction.h"
+#include "render/renderer.h"
+
+namespace triad {
+
+/// A method by its name in the bench.
+struct SubpixelMethod {
+    std::string name;
+    Reconstruction how;
+    bool adaptive = false;
+};
+
+/// Drives of one run, as a display with 8 bits shows them.
+struct SubpixelShot {
+    RgbImage drives;  ///< display-linear
+    double rays_per_pixel = 0;
+    double seconds = 0;  ///< rays and reconstruction; rays that several methods share count for each
+};
+
+class SubpixelSource {
+  public:
+    virtual ~SubpixelSource() = default;
+    virtual const RgbImage& reference() const = 0;  ///< display-linear, in [0, 1]
+    virtual unsigned samples() const = 0;           ///< of the reference, per pixel along each axis
+    /// At least `rays` per pixel, as many in every bin.
+    virtual SubpixelShot shoot(const SubpixelMethod& method, unsigned rays, std::uint32_t seed) = 0;
+};
+
+/// A scene, rendered. The reference is rendered first, at `samples` times the size.
+struct RenderedView {
+    const Scene* scene = nullptr;
+    RenderSettings settings;  ///< of the picture
+    float exposure_ev = 0;
+    ToneMap tone_map = ToneMap::khronos;
+    unsigned samples = 6, reference_spp = 64;
+};
+std::unique_ptr<SubpixelSource> rendered_source(Device& device, const RenderedView& view);
+
+/// A picture, sampled: a ray sees the sample that it meets, without noise of its own. The reference is the
+/// picture, with half as many samples where these are 12 or more and even.
+std::unique_ptr<SubpixelSource> sampled_source(Device& device, RgbImage picture, unsigned samples);
+
+}  // namespace triad
