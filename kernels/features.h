@@ -52,6 +52,9 @@
 #ifndef TRIAD_RAY_STARTS /* rays start elsewhere in their bins than jittered */
 #define TRIAD_RAY_STARTS 1
 #endif
+#ifndef TRIAD_PHOTONS /* photons bring the light that mirrors and glass throw onto other surfaces */
+#define TRIAD_PHOTONS 1
+#endif
 #ifndef TRIAD_BINS /* the film has more than one bin per pixel */
 #define TRIAD_BINS 1
 #endif

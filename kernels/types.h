@@ -208,6 +208,9 @@ TRIAD_SIZE(Spectrum, 4644);
 #define LIGHT_DIRECTIONAL 3u
 #define LIGHT_ENVIRONMENT 4u
 
+#define LIGHT_PHOTONS \
+    0x100u /* photons bring what mirrors and glass throw of this light onto other surfaces */
+
 /* colour: radiance factor of a triangle (texture not included), intensity W/sr of point and spot, irradiance
  * of directional. Emissive geometry is always flattened, so positions are in rebased world space. */
 typedef struct Light {
@@ -222,7 +225,7 @@ typedef struct Light {
     float edge2[3];    /* TRIANGLE: corner 2 - corner 0 */
     float cone_offset;
     float axis[3]; /* unit; TRIANGLE: normal of the front; SPOT, DIRECTIONAL: where the light goes */
-    uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material */
+    uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material; LIGHT_PHOTONS */
     float colour[3];
     float area_per_pick; /* TRIANGLE: area / pick */
 } Light;
@@ -271,7 +274,7 @@ typedef struct Environment {
     ColumnsShape columns;
     float colour[4]; /* used when width is 0 */
     uint format;
-    uint unused;
+    uint photons; /* 1: it is a light of photons (LIGHT_PHOTONS) */
 } Environment;
 TRIAD_SIZE(Environment, 120);
 
@@ -360,6 +363,30 @@ TRIAD_SIZE(TileWork, 32);
 #define COUNTER_TRUNCATED 3  /* paths cut by max_depth */
 #define COUNTER_CUT_ENERGY 4 /* sum of their throughput (luminance), in 1/65536 */
 #define COUNTERS 5
+
+/* ---- Photons (kernels/photon) ---- */
+
+/* A sphere around geometry that reflects or refracts without blur: photons are aimed at these. */
+typedef struct Caster {
+    float centre[3]; /* rebased */
+    float radius;
+} Caster;
+TRIAD_SIZE(Caster, 16);
+
+#define PHOTON_CASTERS 32 /* at most */
+
+/* What all photons of a picture share. Sample s of the picture comes with photons [s * count, (s + 1) *
+ * count) of the sequence. */
+typedef struct PhotonFrame {
+    uint count;
+    uint casters;
+    float inverse_count;
+    float pixel_area;      /* of a pixel on the image plane at distance 1 (orthographic: in scene units) */
+    CdfShape lights;       /* the tree that photons pick their light by */
+    float scene_centre[3]; /* of a sphere around what is drawn: light from afar starts outside */
+    float scene_radius;
+} PhotonFrame;
+TRIAD_SIZE(PhotonFrame, 72);
 
 /* ---- Recorded paths (kernels/shading/record.cl) ---- */
 

@@ -35,7 +35,7 @@ Shown open(const std::string& path) {
 /// A picture that was made for one panel is right on no other.
 void check_made_for(const Shown& shown, const Panel& panel) {
     const auto made_for = shown.file.metadata.find("triad:panel");
-    if (made_for != shown.file.metadata.end() && made_for->second != mounted_name(panel))
+    if (made_for != shown.file.metadata.end() && made_for->second != panel.name)
         throw Error(Exit::comparison, shown.path + " was made for the panel " + made_for->second +
                                           " and is measured on it alone: give --panel " + made_for->second +
                                           ".");

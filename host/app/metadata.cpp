@@ -57,7 +57,7 @@ void describe(const Reconstruction& method, Metadata& metadata) {
     metadata["triad:reconstruct"] = method.method;
     if (!method.filter.empty()) metadata["triad:filter"] = method.filter;
     if (!method.panel) return;
-    metadata["triad:panel"] = mounted_name(method.panel->panel);
+    metadata["triad:panel"] = method.panel->panel.name;
     metadata["triad:ppd"] = number(method.panel->ppd);
 }
 

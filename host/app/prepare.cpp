@@ -86,6 +86,8 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
     settings.roulette = o.roulette;
     settings.independent = o.independent;
     settings.spectral = o.spectral;
+    settings.integrator = o.integrator;
+    settings.photons = o.photons;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
     settings.environment_rotation = o.env_rotate * pi / 180;

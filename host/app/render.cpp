@@ -15,6 +15,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "kernels/types.h"
+#include "measure/perceived_noise.h"
 #include "render/renderer.h"
 
 namespace triad {
@@ -106,6 +107,7 @@ Exit run(RenderOptions o) {
     detail(format("Loaded in %.2f s, trees and packing %.2f s, kernels %.2f s, %s on the device", load_s,
                   renderer.build_seconds(), renderer.compile_seconds(),
                   bytes_text(renderer.device_bytes()).c_str()));
+    detail("Integrator: " + renderer.integrator());
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 
     if (o.pixel) {
@@ -113,7 +115,12 @@ Exit run(RenderOptions o) {
         return Exit::done;
     }
     const InterruptGuard guard;
-    const RenderGoal goal = o.goal();
+    RenderGoal goal = o.goal();
+    if (const auto& panel = o.style.reconstruction.panel)
+        goal.perceived_noise = [noise = PerceivedNoise(device, panel->panel, panel->ppd,
+                                                       display_settings(o.style, false))](const Film& film) {
+            return noise.of(film);
+        };
     RenderResult result;
     Progress progress;
     {
@@ -127,7 +134,8 @@ Exit run(RenderOptions o) {
                             .relmse = p.relmse,
                             .trend = p.trend,
                             .wanted_relmse = goal.error,
-                            .seconds_to_error = p.seconds_to_error});
+                            .seconds_to_error = p.seconds_to_error,
+                            .perceived_noise = p.perceived_noise});
             return !guard.interrupted();
         });
     }
@@ -147,6 +155,7 @@ Exit run(RenderOptions o) {
     metadata["triad:machine"] = machine_words();
     metadata["triad:compute_units"] = std::to_string(device.info().compute_units);
     describe(o.style.reconstruction, metadata);
+    if (result.perceived_noise) metadata["triad:perceived_noise"] = format("%.4g", *result.perceived_noise);
     if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
     if (!o.film_path.empty()) save_film(o.film_path, film);
     write_outputs(o.outputs, device, film, o.style, layers_of(o, renderer, film), metadata);
@@ -156,38 +165,42 @@ Exit run(RenderOptions o) {
                  mrays = double(film.counters[COUNTER_RAYS]) / render_s / 1e6;
     if (!o.json_path.empty()) {
         const auto& n = film.counters;
-        const Json row = {{"scene", o.scene_path.empty() ? "built-in" : o.scene_path},
-                          {"scene_hash", film.scene},
-                          {"settings_hash", film.settings},
-                          {"width", film.width},
-                          {"height", film.height},
-                          {"spp", spp_json(numbers)},
-                          {"spp_min", numbers.least},
-                          {"spp_max", numbers.most},
-                          {"samples", numbers.total},
-                          {"adaptive", goal.adaptive},
-                          {"stopped_by", to_string(result.stop)},
-                          {"seed", o.seed},
-                          {"complete", complete},
-                          {"load_s", load_s},
-                          {"build_s", renderer.build_seconds()},
-                          {"compile_s", renderer.compile_seconds()},
-                          {"render_s", render_s},
-                          {"relmse", relmse < 0 ? Json() : Json(relmse)},
-                          {"trend", result.trend ? Json(*result.trend) : Json()},
-                          {"rays", n[COUNTER_RAYS]},
-                          {"mrays", mrays},
-                          {"device", device.info().name},
-                          {"driver", device.info().driver},
-                          {"device_bytes", renderer.device_bytes()},
-                          {"film_bytes", film_bytes(film)},
-                          {"bins", {film.bins_x, film.bins_y}},
-                          {"reconstruct", o.style.reconstruction.method},
-                          {"left_out", left_out(renderer.features())},
-                          {"not_finite", n[COUNTER_NOT_FINITE]},
-                          {"saturated", n[COUNTER_SATURATED]},
-                          {"truncated", n[COUNTER_TRUNCATED]},
-                          {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / 65536}};
+        const Json row = {
+            {"scene", o.scene_path.empty() ? "built-in" : o.scene_path},
+            {"scene_hash", film.scene},
+            {"settings_hash", film.settings},
+            {"width", film.width},
+            {"height", film.height},
+            {"spp", spp_json(numbers)},
+            {"spp_min", numbers.least},
+            {"spp_max", numbers.most},
+            {"samples", numbers.total},
+            {"adaptive", goal.adaptive && renderer.photons() == 0},
+            {"stopped_by", to_string(result.stop)},
+            {"seed", o.seed},
+            {"integrator", renderer.integrator()},
+            {"photons_per_sample", renderer.photons()},
+            {"complete", complete},
+            {"load_s", load_s},
+            {"build_s", renderer.build_seconds()},
+            {"compile_s", renderer.compile_seconds()},
+            {"render_s", render_s},
+            {"relmse", relmse < 0 ? Json() : Json(relmse)},
+            {"trend", result.trend ? Json(*result.trend) : Json()},
+            {"perceived_noise", result.perceived_noise ? Json(*result.perceived_noise) : Json()},
+            {"rays", n[COUNTER_RAYS]},
+            {"mrays", mrays},
+            {"device", device.info().name},
+            {"driver", device.info().driver},
+            {"device_bytes", renderer.device_bytes()},
+            {"film_bytes", film_bytes(film)},
+            {"bins", {film.bins_x, film.bins_y}},
+            {"reconstruct", o.style.reconstruction.method},
+            {"left_out", left_out(renderer.features())},
+            {"not_finite", n[COUNTER_NOT_FINITE]},
+            {"saturated", n[COUNTER_SATURATED]},
+            {"truncated", n[COUNTER_TRUNCATED]},
+            {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / 65536}};
         write_report(o.json_path, "render", &device.info(), Json::array({row}));
     }
     std::string names;
@@ -195,9 +208,11 @@ Exit run(RenderOptions o) {
     if (!o.film_path.empty()) names += (names.empty() ? "" : ", ") + o.film_path;
     const std::string spread =
         numbers.least == numbers.most ? "" : format(" (%u to %u)", numbers.least, numbers.most);
-    inform(format("%s: %ux%u, %s samples per pixel%s in %.1f s, %.2f Mrays/s, relMSE %s", names.c_str(),
+    const std::string perceived =
+        result.perceived_noise ? format(", perceived noise %.2g", *result.perceived_noise) : "";
+    inform(format("%s: %ux%u, %s samples per pixel%s in %.1f s, %.2f Mrays/s, relMSE %s%s", names.c_str(),
                   film.width, film.height, spp_text(numbers.mean).c_str(), spread.c_str(), render_s, mrays,
-                  relmse < 0 ? "not known" : relmse_text(relmse, result.trend).c_str()));
+                  relmse < 0 ? "not known" : relmse_text(relmse, result.trend).c_str(), perceived.c_str()));
     if (goal.error > 0 && result.stop != Stop::error)
         inform(format("The relMSE of %.2g that was asked for is not reached", goal.error) +
                (progress.seconds_to_error > 0

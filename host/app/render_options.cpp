@@ -66,6 +66,21 @@ void declare(CLI::App& command, RenderOptions& o) {
             "time; 1: most samples)")
         ->check(CLI::Range(0.01, 10.0))
         ->type_name("T");
+    add_parsed(command, "--integrator", "NAME",
+               "auto (the default: photons where something casts the light of a small source onto other "
+               "surfaces), path (paths alone) or photons (from every light)",
+               [&o](const std::string& v) {
+                   if (v != "auto" && v != "path" && v != "photons")
+                       throw Error(Exit::usage, "--integrator " + v + ": auto, path or photons.");
+                   o.integrator = v == "auto"   ? Integrator::automatic
+                                  : v == "path" ? Integrator::path
+                                                : Integrator::photons;
+               });
+    command
+        .add_option("--photons", o.photons,
+                    "Photons with every sample of the picture (default: one for each pixel)")
+        ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
+        ->type_name("N");
     add_parsed(command, "--sampler", "NAME",
                "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
                [&o](const std::string& v) {
@@ -223,6 +238,11 @@ void complete(RenderOptions& o) {
             Exit::usage,
             "--pixel makes no picture: it cannot be combined with -o, --film, --crop, --error, --time or "
             "--adaptive.");
+    if (o.integrator == Integrator::photons && (o.pixel || o.adaptive.value_or(false)))
+        throw Error(Exit::usage,
+                    "--integrator photons lights the picture as a whole: it cannot be combined with --pixel or "
+                    "--adaptive on; use --integrator path there.");
+    if (o.pixel || o.adaptive.value_or(false)) o.integrator = Integrator::path;
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);

@@ -29,6 +29,8 @@ struct RenderOptions {
     std::uint32_t seed = 0;
     unsigned max_depth = 0;
     double roulette = RenderSettings{}.roulette;
+    Integrator integrator = Integrator::automatic;
+    std::uint64_t photons = 0;  ///< with every sample of the picture; 0: one for each pixel
     bool independent = false;  ///< samples, instead of Sobol's sequence
     Spectral spectral = Spectral::automatic;
     ReconstructOptions reconstruct;

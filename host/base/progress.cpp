@@ -23,6 +23,7 @@ std::string left_text(double seconds) { return seconds < 0 ? "?" : clock_time(se
 /// What is said of the error, and when the one that was asked for will be reached.
 std::string error_text(const ProgressState& state) {
     std::string text = "relMSE " + relmse_text(state.relmse, state.trend);
+    if (state.perceived_noise) text += format(", perceived noise %.2g", *state.perceived_noise);
     if (state.wanted_relmse > 0)
         text += format(", %.2g in ", state.wanted_relmse) + left_text(state.seconds_to_error);
     return text;
@@ -83,7 +84,9 @@ std::string json_text(const ProgressState& state) {
            json_number(state.seconds_left, "%.3f") + format(", \"spp\": %.9g, \"relmse\": ", state.spp) +
            json_number(state.relmse, "%.6g") +
            ", \"trend\": " + (state.trend ? format("%.4g", *state.trend) : "null") +
-           ", \"seconds_to_error\": " + json_number(state.seconds_to_error, "%.3f") + "}";
+           ", \"seconds_to_error\": " + json_number(state.seconds_to_error, "%.3f") +
+           ", \"perceived_noise\": " +
+           (state.perceived_noise ? format("%.4g", *state.perceived_noise) : "null") + "}";
 }
 
 ProgressDisplay::~ProgressDisplay() {

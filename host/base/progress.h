@@ -16,14 +16,15 @@ ProgressStyle progress_style(const std::string& name);
 
 /// How far a render is.
 struct ProgressState {
-    double done = 0;               ///< of the whole, 0 to 1
-    double seconds = 0;            ///< since the work began
-    double seconds_left = -1;      ///< until the end; negative: not known yet
-    double spp = 0;                ///< samples per pixel so far
-    double relmse = -1;            ///< current estimate; negative: not known yet
-    std::optional<double> trend;   ///< relMSE falls as spp^trend
-    double wanted_relmse = 0;      ///< 0: no error was asked for
-    double seconds_to_error = -1;  ///< until it is reached; negative: not known yet
+    double done = 0;                        ///< of the whole, 0 to 1
+    double seconds = 0;                     ///< since the work began
+    double seconds_left = -1;               ///< until the end; negative: not known yet
+    double spp = 0;                         ///< samples per pixel so far
+    double relmse = -1;                     ///< current estimate; negative: not known yet
+    std::optional<double> trend;            ///< relMSE falls as spp^trend
+    double wanted_relmse = 0;               ///< 0: no error was asked for
+    double seconds_to_error = -1;           ///< until it is reached; negative: not known yet
+    std::optional<double> perceived_noise;  ///< on the panel that the picture is for; none: not known
 };
 
 /// "0.0021 ~ spp^-1.02", or less while less is known.

@@ -162,6 +162,13 @@ const std::map<std::string, Recipe>& recipes() {
              s.settings.view.focus_distance = 4.4;
          }}},
         {"INDEPENDENT_SAMPLES", {[](FeatureScene& s) { s.settings.independent = true; }}},
+        {"PHOTONS",
+         {[](FeatureScene& s) { s.settings.integrator = Integrator::photons; },
+          [](FeatureScene& s) {
+              use_specular(s);
+              s.scene.materials[ring_material].roughness = 0.0f;
+              s.scene.materials[lamp_material].emission = vec3(5.0f);
+          }}},
         {"RAY_STARTS", {[](FeatureScene& s) { s.settings.ray_start = RayStart::centre; }}},
         {"BINS", {[](FeatureScene& s) { s.settings.bins_x = s.settings.bins_y = 2; }}},
     };

@@ -58,12 +58,6 @@ void check_emitter(const Panel& panel, std::size_t index) {
 
 }  // namespace
 
-std::string mounted_name(const Panel& panel) {
-    std::string name = panel.name + (panel.flipped ? "@flip" : "");
-    if (panel.quarter_turns % 4) name += "@" + std::to_string(panel.quarter_turns % 4 * 90);
-    return name;
-}
-
 Panel mirrored(const Panel& panel) {
     Panel result = panel;
     for (Emitter& e : result.emitters) {

@@ -55,10 +55,6 @@ const std::vector<Panel>& builtin_panels();
 /// (mirrored left to right), made in that order: "qd-oled@180". Nothing when there is no such panel.
 std::optional<Panel> builtin_panel(const std::string& name);
 
-/// The name that builtin_panel() takes for the panel as it is mounted: "qd-oled@flip@180". What pictures for
-/// it say they are for.
-std::string mounted_name(const Panel& panel);
-
 /// The screen turned clockwise, a quarter at a time.
 Panel turned(const Panel& panel, unsigned quarter_turns);
 /// The screen mirrored left to right.

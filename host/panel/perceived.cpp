@@ -185,6 +185,19 @@ PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
     return result;
 }
 
+double perceived_difference(const Panel& panel, const RgbImage& difference, const PerceivedChoice& choice) {
+    const PerceivedMetric::State s(panel, difference, 1, choice);
+    const dmat3 axes = linear_lab_of_xyz(s.white);
+    double sum = 0;
+    for (unsigned y = 0; y < s.height; ++y)
+        for (unsigned x = 0; x < s.width; ++x) {
+            const std::size_t i = std::size_t(y + s.margin_y) * s.fourier.width() + x + s.margin_x;
+            const dvec3 d = axes * dvec3(s.wanted[0][i], s.wanted[1][i], s.wanted[2][i]);
+            sum += glm::dot(d, d);
+        }
+    return std::sqrt(sum / (double(s.width) * s.height));
+}
+
 unsigned samples_per_pixel(const RgbImage& drives, const RgbImage& reference) {
     const unsigned samples = drives.width ? reference.width / drives.width : 0;
     if (samples < 1 || reference.width != samples * drives.width ||

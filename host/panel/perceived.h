@@ -37,10 +37,17 @@ class PerceivedMetric {
     /// `drives`: as shown, display-linear; cut to [0, 1]. Throws Error(comparison) for another size.
     PerceivedError of(const RgbImage& drives) const;
 
+    struct State;  ///< of the implementation
+
   private:
-    struct State;
     std::unique_ptr<const State> state_;
 };
+
+/// What the eye sees of `difference` (W x H, display-linear, one value per pixel), added to the drives of a
+/// panel: the root mean square in the units of PerceivedError::error. Patterns within a pixel do not count,
+/// so that this is for what is slower than pixels: the noise that pixels have.
+double perceived_difference(const Panel& panel, const RgbImage& difference,
+                            const PerceivedChoice& choice = {});
 
 /// Samples per pixel of a reference to a picture of drives: a whole number, the same along both axes. Throws
 /// Error(comparison) otherwise.

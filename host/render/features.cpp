@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/pack.h"
+
 namespace triad {
 namespace {
 
@@ -22,6 +24,7 @@ constexpr FeatureOption table[] = {
     {"LENS", &Features::lens},
     {"INDEPENDENT_SAMPLES", &Features::independent_samples},
     {"RAY_STARTS", &Features::ray_starts},
+    {"PHOTONS", &Features::photons},
     {"BINS", &Features::bins},
 };
 
@@ -41,7 +44,7 @@ std::string FeatureOption::words() const {
     return words;
 }
 
-Features features_of(const Scene& scene, const RenderSettings& settings, bool instances) {
+Features features_of(const Scene& scene, const RenderSettings& settings, const PackedScene& packed) {
     std::vector<bool> used(scene.materials.size());
     Features f;
     f.vertex_colours = false;
@@ -55,7 +58,7 @@ Features features_of(const Scene& scene, const RenderSettings& settings, bool in
             if (used[i] && fact(scene.materials[i])) return true;
         return false;
     };
-    f.instances = instances;
+    f.instances = packed.instances;
     f.alpha_test = any([](const Material& m) { return m.alpha_mode != AlphaMode::opaque; });
     f.textures = any(textured);
     f.normal_maps = any([](const Material& m) { return m.normal_texture.has_value(); });
@@ -73,6 +76,7 @@ Features features_of(const Scene& scene, const RenderSettings& settings, bool in
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;
     f.ray_starts = settings.ray_start != RayStart::jitter;
+    f.photons = !packed.casters.empty();
     f.bins = settings.bins_x * settings.bins_y > 1;
     return f;
 }

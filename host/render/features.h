@@ -16,11 +16,13 @@ struct Features {
     bool instances = true, alpha_test = true, textures = true, normal_maps = true, vertex_colours = true;
     bool specular = true, transmission = true, dispersion = true, priorities = true, unlit = true;
     bool triangle_lights = true, punctual_lights = true, environment_map = true, lens = true, bins = true;
-    bool independent_samples = true, ray_starts = true;
+    bool independent_samples = true, ray_starts = true, photons = true;
 };
 
-/// `instances` is what the packing decided, the rest is read off the scene.
-Features features_of(const Scene& scene, const RenderSettings& settings, bool instances);
+struct PackedScene;
+
+/// What the packing decided (instances, photons), and the rest is read off the scene.
+Features features_of(const Scene& scene, const RenderSettings& settings, const PackedScene& packed);
 
 /// An option of kernels/features.h: TRIAD_ and its name.
 struct FeatureOption {

@@ -2,6 +2,7 @@
 /// The only place where the host's scene becomes device structs (kernels/types.h): flattening, trees, lights,
 /// textures.
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "bvh/bvh.h"
@@ -40,6 +41,10 @@ struct PackedScene {
     std::vector<dev::Spectrum> spectrum;  ///< one, or none where no path has a wavelength
     std::vector<float> indices;           ///< tables of bodies that disperse
     dev::CdfShape light_shape{};
+    std::vector<dev::Caster> casters;          ///< empty: no photons
+    std::vector<std::uint32_t> photon_lights;  ///< tree of the lights that photons come from
+    dev::CdfShape photon_lights_shape{};
+    std::string integrator;  ///< which one was chosen, and why: a sentence
     dev::Environment environment{};
 };
 
@@ -50,6 +55,10 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings);
 
 /// Everything of the picture that is no array.
 dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
+
+/// What all photons share. Throws Error(usage) when there are more than 2^32 with a sample.
+dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings& settings,
+                                 const dev::Frame& frame);
 
 /// The packed arrays on a device, in the order of SCENE_PARAMETERS.
 struct DeviceScene {
@@ -89,5 +98,7 @@ void pack_materials(const Scene& scene, PackedScene& packed);
 void pack_spectrum(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_lights(const Scene& scene, PackedScene& packed);
 void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+/// Decides whether photons are used, and aims them. After pack_lights().
+void pack_photons(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 
 }  // namespace triad

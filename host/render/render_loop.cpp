@@ -25,14 +25,14 @@ class RenderLoop {
     RenderLoop(Renderer::State& state, const RenderGoal& goal,
                const std::function<bool(const Progress&)>& report)
         : s_(state),
-          goal_(goal),
+          goal_(even_with_photons(goal, state.photons)),
           report_(report),
-          schedule_(goal, unsigned(state.film.bins())),
+          schedule_(goal_, unsigned(state.film.bins())),
           pixels_(set_pixels(state.film.width, state.film.height)),
           have_(pixels_.size()),
           ranges_before_(state.film.ranges),
           samples_before_(double(state.film.sample_count())) {
-        assert(ranges_before_.empty() || (!goal.adaptive && goal.error == 0));
+        assert(ranges_before_.empty() || (!goal_.adaptive && goal.error == 0));
     }
 
     RenderResult run() {
@@ -43,16 +43,17 @@ class RenderLoop {
             if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
         }
         const double rendered = seconds();
-        if (!trend_.empty() || goal_.error > 0) estimate(false);
+        if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
         const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
         s_.film.ranges = ranges_before_;
         if (range.end > range.begin) s_.film.ranges.push_back(range);
-        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), rendered, trend_.slope()};
+        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), rendered, trend_.slope(),
+                perceived_noise_};
     }
 
   private:
     Renderer::State& s_;
-    const RenderGoal& goal_;
+    const RenderGoal goal_;
     const std::function<bool(const Progress&)>& report_;
     Schedule schedule_;
     Trend trend_;  ///< of every estimate; the schedule decides by those at the ends of rounds alone
@@ -66,7 +67,14 @@ class RenderLoop {
     const RenderClock::time_point start_ = RenderClock::now();
     double next_estimate_ = 0.25;
     double relmse_ = -1;
+    std::optional<double> perceived_noise_;
     std::uint64_t rays_ = 0;
+
+    /// Photons go to the whole picture: a sample of theirs is one of every pixel.
+    static RenderGoal even_with_photons(RenderGoal goal, std::uint64_t photons) {
+        if (photons > 0) goal.adaptive = false, goal.whole = true;
+        return goal;
+    }
 
     double seconds() const { return seconds_since(start_); }
     double samples() const { return double(total_) / double(s_.film.pixels()); }
@@ -125,7 +133,15 @@ class RenderLoop {
             if (may_be_cut && schedule_.time_is_up(samples(), seconds())) return false;
             first += launch(work, first, may_be_cut);
         }
+        if (s_.photons > 0) trace_photons(work.front());
         return true;
+    }
+
+    /// The photons of an even pass.
+    void trace_photons(const dev::TileWork& any) {
+        for (std::uint32_t i = 0; i < any.sample_count[0]; ++i)
+            s_.launch_photons(goal_.samples.begin + any.first_sample[0] + i);
+        s_.device.finish();
     }
 
     /// The tiles in an order whose every beginning is spread over the picture: a pass that is cut favours no
@@ -176,6 +192,7 @@ class RenderLoop {
         s_.load_film_arrays();
         rays_ = s_.film.counters[COUNTER_RAYS];
         relmse_ = estimated_relmse(s_.film);
+        if (goal_.perceived_noise) perceived_noise_ = goal_.perceived_noise(s_.film);
         if (relmse_ >= 0) {
             trend_.add(samples_before_ + samples(), relmse_);
             if (decides) schedule_.add_estimate(samples(), relmse_);
@@ -196,6 +213,7 @@ class RenderLoop {
         p.relmse = relmse_;
         p.trend = trend_.slope();
         p.rays = rays_;
+        p.perceived_noise = perceived_noise_;
         return p;
     }
 };

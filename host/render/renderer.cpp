@@ -106,7 +106,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.packed = pack(scene, settings);
     s.frame = frame_of(s.packed, settings);
     s.build_seconds = seconds_since(build_start);
-    s.features = features ? *features : features_of(scene, settings, s.packed.instances);
+    s.features = features ? *features : features_of(scene, settings, s.packed);
     s.scene = upload(device, s.packed, settings);
     s.name_sources(scene);
 
@@ -127,12 +127,14 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
     device.write(s.work, &first_tile, sizeof first_tile);
     s.launch(0, 1, 0, 0);
+    s.prepare_photons();
     device.finish();
     s.clear_film();
     s.compile_seconds = seconds_since(compile_start);
     PackedScene light;  // what the device has now is not kept twice
     light.origin = s.packed.origin;
     light.duplicates = s.packed.duplicates;
+    light.integrator = s.packed.integrator;
     s.packed = std::move(light);
 }
 
@@ -186,6 +188,8 @@ Renderer::FeaturePlanes Renderer::feature_planes(unsigned samples) {
 const Features& Renderer::features() const { return state_->features; }
 double Renderer::build_seconds() const { return state_->build_seconds; }
 double Renderer::compile_seconds() const { return state_->compile_seconds; }
+const std::string& Renderer::integrator() const { return state_->packed.integrator; }
+std::uint64_t Renderer::photons() const { return state_->photons; }
 std::uint64_t Renderer::device_bytes() const { return state_->scene.bytes; }
 
 }  // namespace triad

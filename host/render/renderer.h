@@ -25,13 +25,15 @@ struct Progress {
     double relmse = -1;            ///< the latest estimate; negative: not known yet
     std::optional<double> trend;   ///< slope of log relMSE against log samples; none: not known yet
     std::uint64_t rays = 0;        ///< at the latest estimate
+    std::optional<double> perceived_noise;  ///< RenderGoal::perceived_noise, at the latest estimate
 };
 
 struct RenderResult {
     SampleRange range;  ///< what every pixel was given; adaptive: Film::samples says what beyond that
     Stop stop = Stop::samples;
-    double seconds = 0;           ///< that rendering took
-    std::optional<double> trend;  ///< as in Progress, of the whole render
+    double seconds = 0;                     ///< that rendering took
+    std::optional<double> trend;            ///< as in Progress, of the whole render
+    std::optional<double> perceived_noise;  ///< of the whole render, where it was wanted
 };
 
 class Renderer {
@@ -74,8 +76,10 @@ class Renderer {
     const std::vector<std::string>& light_sources() const;
 
     const Features& features() const;
-    double build_seconds() const;    ///< trees and packing
-    double compile_seconds() const;  ///< kernels, with the warm-up launch
+    const std::string& integrator() const;  ///< which one was chosen, and why
+    std::uint64_t photons() const;          ///< with every sample of the picture
+    double build_seconds() const;           ///< trees and packing
+    double compile_seconds() const;         ///< kernels, with the warm-up launch
     std::uint64_t device_bytes() const;
 
   private:

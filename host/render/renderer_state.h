@@ -32,7 +32,7 @@ struct Renderer::State {
     dev::Frame frame{};
     DeviceScene scene;
     Features features;
-    Kernel trace_paths;
+    Kernel trace_paths, trace_photons;
     /// Of the film: bands of rows of tiles, from the top, so that no piece is larger than the device allows.
     struct Band {
         Buffer sums, half_sums;
@@ -40,6 +40,8 @@ struct Renderer::State {
     std::vector<Band> bands;
     std::size_t band_tiles = 0;  ///< of each but the last
     Buffer samples, counters;
+    Buffer photon_frame, photon_lights, casters;
+    std::uint64_t photons = 0;                ///< with every sample of the picture
     Buffer work;                              ///< of a pass: one dev::TileWork for every tile
     std::size_t tiles = 0;                    ///< of the crop
     Film film;                                ///< without the arrays
@@ -54,6 +56,10 @@ struct Renderer::State {
     void allocate_film();
     /// Renders work[first, first + count), all of one band, whose samples are counted from first_sample.
     void launch(std::size_t first, std::size_t count, std::uint64_t first_sample, std::size_t band);
+    /// Uploads what photons need and compiles their kernel, where the scene wants them.
+    void prepare_photons();
+    /// Adds the photons of a sample of the picture to the film.
+    void launch_photons(std::uint64_t sample);
     void clear_film();
     void name_settings();  ///< in the film
     /// Fills source_names and light_source; before the packed arrays go.

@@ -46,10 +46,10 @@ struct BinImage {
     unsigned height() const { return (rows + bins_y - 1) / bins_y; }
 };
 
-/// Display-linear RGBA (ToneOrder::never: scene-linear) per pixel of the film's crop, row-major, in [0, 1], colour associated with alpha. At
-/// the edges the picture goes on as its mirror image. Computed in float, some rows at a time, so that no
-/// piece of device memory is larger than the device allows. Throws DeviceError, Error(usage) for a tap table
-/// that does not fit the bins.
+/// Display-linear RGBA (ToneOrder::never: scene-linear) per pixel of the film's crop, row-major, in [0, 1],
+/// colour associated with alpha. At the edges the picture goes on as its mirror image. Computed in float,
+/// some rows at a time, so that no piece of device memory is larger than the device allows. Throws
+/// DeviceError, Error(usage) for a tap table that does not fit the bins.
 std::vector<float> resolve_display(Device& device, const Film& film, const DisplaySettings& settings);
 std::vector<float> resolve_display(Device& device, const BinImage& image, const DisplaySettings& settings);
 

@@ -92,7 +92,7 @@ double Schedule::pace(double samples, double seconds) const {
 
 bool Schedule::may_end_within_sample(double samples, double seconds) const {
     if (goal_.adaptive) return true;
-    return goal_.seconds > 0 && samples > 0 &&
+    return !goal_.whole && goal_.seconds > 0 && samples > 0 &&
            0.5 * bins_ * pace(samples, seconds) > missable * goal_.seconds;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// How many samples to take next, and when to stop: decisions only, without a clock, a film or a device.
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,10 @@ struct RenderGoal {
     double error = 0;       ///< estimated relMSE of the picture; 0: not asked for
     double seconds = 0;     ///< of rendering; 0: not asked for
     bool adaptive = false;  ///< samples go where they lower the error most (render/adaptive.h)
+    bool whole = false;     ///< even renders end after whole samples, however long these take
+    /// The perceived error's share that more samples lower, of a film, for reports; empty: not wanted. None:
+    /// not known yet.
+    std::function<std::optional<double>(const Film&)> perceived_noise;
     bool follow = true;  ///< estimate the error now and then for reports, also where nothing is decided by it
 };
 

@@ -31,6 +31,8 @@ std::string text_of(const RenderSettings& s) {
     add("roulette", {s.roulette});
     add("independent", {double(s.independent)});
     if (s.spectral != Spectral::automatic) add("spectral", {double(s.spectral)});
+    if (s.integrator != Integrator::path)
+        add("photons", {double(s.integrator == Integrator::photons), double(s.photons)});
     add("transparent", {double(s.transparent)});
     add("eye", {v.eye.x, v.eye.y, v.eye.z});
     add("right", {v.right.x, v.right.y, v.right.z});

@@ -25,6 +25,13 @@ enum class Spectral {
     classic     ///< one wavelength per path from the camera on, as it was first published
 };
 
+/// What brings the light that mirrors and glass throw onto other surfaces.
+enum class Integrator {
+    automatic,  ///< photons where something casts and its light is small, else paths
+    path,       ///< paths alone: unidirectional path tracing
+    photons,    ///< photons from every light
+};
+
 struct RenderSettings {
     unsigned width = 1280, height = 720;
     std::array<unsigned, 4> crop{};   ///< x, y, width, height; width 0: the whole picture
@@ -42,6 +49,8 @@ struct RenderSettings {
     /// Random numbers hashed for every sample alone, instead of Sobol's sequence: more error, but known laws.
     bool independent = false;
     Spectral spectral = Spectral::automatic;
+    Integrator integrator = Integrator::path;
+    std::uint64_t photons = 0;  ///< with every sample of the picture; 0: one for each pixel
     bool transparent =
         false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
     View view;

@@ -2,6 +2,7 @@
 /// The film as plain data: order-free sums over bins. design: docs/architecture.md, "The film".
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,6 +62,15 @@ std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel);
 /// Variance of the mean of every pixel, [pixel][R, G, B], estimated without bias from its two halves; empty:
 /// not known yet (a half without samples).
 std::vector<float> mean_variance(const Film& film);
+
+/// Means of the two halves of every pixel, [pixel][R, G, B]. weight * (first - second) has the variance of the
+/// pixel's mean.
+struct HalfMeans {
+    std::vector<float> first, second;
+    std::vector<float> weight;  ///< per pixel: sqrt(nA nB) / (nA + nB)
+};
+/// None: a half has no samples yet.
+std::optional<HalfMeans> half_means(const Film& film);
 
 /// Which pixels around help to estimate r^2: all, or those of the pixel's own set (x ^ y) & 1 of a
 /// chessboard, so that nothing of the other set is in the result.

@@ -120,6 +120,26 @@ void errors_of_row(const Film& film, const std::vector<Estimate>& estimates, std
 
 }  // namespace
 
+std::optional<HalfMeans> half_means(const Film& film) {
+    const HalfCounts halves(film);
+    if (!halves.known()) return std::nullopt;
+    const std::size_t pixels = film.pixels();
+    HalfMeans means{std::vector<float>(pixels * 3), std::vector<float>(pixels * 3),
+                    std::vector<float>(pixels)};
+    const double quantum = std::ldexp(1.0, -film.quanta_log2);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        const double count = film.samples[p], first = halves.first(film.samples[p]), second = count - first;
+        const std::array<double, 4> mean = pixel_mean(film, p);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double sum = double(film.half_sums[p * 3 + c]) * quantum;
+            means.first[p * 3 + c] = float(sum / first);
+            means.second[p * 3 + c] = float((mean[c] * count - sum) / second);
+        }
+        means.weight[p] = float(std::sqrt(first * second) / count);
+    }
+    return means;
+}
+
 std::vector<float> mean_variance(const Film& film) {
     const HalfCounts halves(film);
     if (!halves.known()) return {};

@@ -44,6 +44,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         0.0f; /* solid-angle density of the last direction; 0: delta or camera, found by no other sampling */
     int straight = 1; /* only transmissions so far: the camera looks through */
     int specular = 1; /* only delta events so far */
+#if TRIAD_PHOTONS
+    int caustic = 0; /* one event that is no delta event, and then delta events only: photons bring this light */
+#endif
     float body_scale =
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
     Bodies bodies = (uint4)(TRIAD_NONE); /* that the path is in */
@@ -79,7 +82,11 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             }
             float light_pdf;
             const Colour sky = path_colour(&colours, environment_radiance(scene, -wo, &light_pdf));
-            const Colour found = throughput * sky * (pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f);
+            float weight = pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f;
+#if TRIAD_PHOTONS
+            if (caustic && pdf == 0.0f && frame->environment.photons) weight = 0.0f;
+#endif
+            const Colour found = throughput * sky * weight;
             radiance += found;
             RECORD(record_found(&tally->recorder, edge, path_found(&colours, found));)
             break;
@@ -126,9 +133,13 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const uint first_light = scene->geometries[s.geometry].first_light;
         if (first_light != TRIAD_NONE && (!back || (flags & MATERIAL_DOUBLE_SIDED))) {
             float weight = 1.0f;
+            global const Light* found_light =
+                scene->lights + first_light + hit.primitive - scene->geometries[s.geometry].first_triangle;
+#if TRIAD_PHOTONS
+            if (caustic && pdf == 0.0f && (found_light->flags & LIGHT_PHOTONS)) weight = 0.0f;
+#endif
             if (pdf > 0.0f) {
-                const Light light =
-                    scene->lights[first_light + hit.primitive - scene->geometries[s.geometry].first_triangle];
+                const Light light = *found_light;
                 weight =
                     power_heuristic(1.0f / (pdf * light_triangle_inverse_pdf(&light, 1.0f / (hit.t * hit.t),
                                                                              math_dot(ng, wo))));
@@ -247,6 +258,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         pdf = (sample.event & BSDF_DELTA) ? 0.0f : density;
         straight = straight && (sample.event & BSDF_TRANSMIT);
         specular = specular && (sample.event & BSDF_DELTA);
+#if TRIAD_PHOTONS
+        caustic = edge == 1u ? !(sample.event & BSDF_DELTA) : caustic && (sample.event & BSDF_DELTA);
+#endif
 
         const float most = edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
         const float survive = math_min(colour_max(throughput) * frame->roulette / body_scale, most);

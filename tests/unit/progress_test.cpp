@@ -29,14 +29,21 @@ TEST(Progress, says_the_error_its_trend_and_when_it_will_be_as_asked_for) {
     EXPECT_EQ(line_text(state),
               "25 % after 0:10, 0:30 left, 62.5 spp, relMSE 0.0041 ~ spp^-1.02, 0.001 in 1:30");
     EXPECT_NE(bar_text(state, 120).find("relMSE 0.0041 ~ spp^-1.02, 0.001 in 1:30"), std::string::npos);
+    EXPECT_EQ(line_text({.done = 0.25,
+                         .seconds = 10,
+                         .seconds_left = 30,
+                         .spp = 4,
+                         .relmse = 0.1,
+                         .perceived_noise = 1.23}),
+              "25 % after 0:10, 0:30 left, 4 spp, relMSE 0.1, perceived noise 1.2");
     EXPECT_EQ(line_text({.done = 0.25, .seconds = 10, .spp = 4}), "25 % after 0:10, ? left, 4 spp, relMSE ?");
 }
 
 TEST(Progress, json_says_null_for_what_is_not_known) {
     EXPECT_EQ(json_text({}),
               R"({"progress": 0, "seconds": 0.000, "seconds_left": null, "spp": 0, "relmse": null, )"
-              R"("trend": null, "seconds_to_error": null})");
-    EXPECT_EQ(json_text({0.5, 2, 2, 8, 0.25, -0.5, 0.125, 14}),
+              R"("trend": null, "seconds_to_error": null, "perceived_noise": null})");
+    EXPECT_EQ(json_text({0.5, 2, 2, 8, 0.25, -0.5, 0.125, 14, 1.5}),
               R"({"progress": 0.5, "seconds": 2.000, "seconds_left": 2.000, "spp": 8, "relmse": 0.25, )"
-              R"("trend": -0.5, "seconds_to_error": 14.000})");
+              R"("trend": -0.5, "seconds_to_error": 14.000, "perceived_noise": 1.5})");
 }

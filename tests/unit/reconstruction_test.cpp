@@ -129,13 +129,6 @@ TEST(Reconstruction, what_makes_no_sense_is_refused) {
     EXPECT_THROW(reconstruction_of(choice), Error);
 }
 
-TEST(Reconstruction, pictures_name_the_panel_as_it_is_mounted) {
-    for (const char* name : {"rgb", "qd-oled@180", "pentile@flip", "rgb@flip@90"})
-        EXPECT_EQ(mounted_name(*builtin_panel(name)), name);
-    // Turned and then mirrored is mirrored and then turned the other way.
-    EXPECT_EQ(mounted_name(*builtin_panel("qd-oled@90@flip")), "qd-oled@flip@270");
-}
-
 TEST(Reconstruction, samples_are_rounded_up_to_whole_bins) {
     EXPECT_EQ(whole_bins(1, 9), 9u);
     EXPECT_EQ(whole_bins(9, 9), 9u);

@@ -1,0 +1,155 @@
+/* Where photons start: a light by its share, a point on it, and a direction to one of the casters, the
+ * spheres around what reflects or refracts without blur. Every direction that hits some caster can be drawn,
+ * so that aiming biases nothing; the density is that of the mixture over all casters (Veach 1997,
+ * section 9.2.1, the one-sample model with the balance heuristic: weights by solid angle make the mixture
+ * uniform where casters do not overlap). Include after shading/light.h. */
+#ifndef TRIAD_PHOTON_EMIT_H
+#define TRIAD_PHOTON_EMIT_H
+
+#include "common/frame.h"
+#include "common/sampling.h"
+
+typedef struct PhotonSource {
+    Ray ray;
+    float3 power; /* flux in W over the density of everything that was drawn; black: no photon */
+    float range;  /* punctual light: where it ends; 0: nowhere */
+} PhotonSource;
+
+/* The cone of directions from p that hit a caster: squared sine of its half angle (more than 1: p is inside,
+ * and every direction hits) and solid angle / 2 pi. */
+TRIAD_FUNCTION float photon_cone(global const Caster* caster, float3 p, float3* axis, float* sin2) {
+    *axis = (float3)(caster->centre[0], caster->centre[1], caster->centre[2]) - p;
+    const float distance2 = math_dot(*axis, *axis);
+    const float radius2 = caster->radius * caster->radius;
+    if (!(distance2 > radius2)) {
+        *sin2 = 2.0f;
+        return 2.0f;
+    }
+    *axis *= 1.0f / sqrt(distance2);
+    *sin2 = radius2 / distance2;
+    return sampling_one_minus_cos(*sin2);
+}
+
+/* A direction from p to one of the casters; pick and u in [0, 1). Returns 1 / density in solid angle. */
+TRIAD_FUNCTION float photon_aim(global const Caster* casters, uint count, float3 p, float pick, float2 u,
+                                float3* direction) {
+    float total = 0.0f, sin2;
+    float3 axis;
+    for (uint i = 0u; i < count; ++i) total += photon_cone(casters + i, p, &axis, &sin2);
+    float left = pick * total;
+    uint chosen = 0u;
+    for (; chosen + 1u < count; ++chosen) {
+        const float share = photon_cone(casters + chosen, p, &axis, &sin2);
+        if (left < share) break;
+        left -= share;
+    }
+    const float share = photon_cone(casters + chosen, p, &axis, &sin2);
+    if (sin2 > 1.0f) {
+        *direction = sampling_sphere(u);
+    } else {
+        const ShadingFrame frame = frame_make(axis);
+        *direction = math_normalize(frame_to_world(&frame, sampling_cone(u, share)));
+    }
+    uint hits = 1u;
+    for (uint i = 0u; i < count; ++i) {
+        if (i == chosen) continue;
+        photon_cone(casters + i, p, &axis, &sin2);
+        const float3 off = math_cross(axis, *direction);
+        hits += sin2 > 1.0f || (math_dot(axis, *direction) > 0.0f && math_dot(off, off) <= sin2);
+    }
+    return 2.0f * MATH_PI * total / (float)hits;
+}
+
+/* A ray along `direction` through the disc that one of the casters shows to it. Returns 1 / density per area
+ * across the direction. */
+TRIAD_FUNCTION float photon_aim_from_afar(global const PhotonFrame* f, global const Caster* casters,
+                                          float3 direction, float pick, float2 u, float3* origin) {
+    float total = 0.0f;
+    for (uint i = 0u; i < f->casters; ++i) total += math_square(casters[i].radius);
+    float left = pick * total;
+    uint chosen = 0u;
+    for (; chosen + 1u < f->casters; ++chosen) {
+        const float share = math_square(casters[chosen].radius);
+        if (left < share) break;
+        left -= share;
+    }
+    const float2 d = sampling_disc(u) * casters[chosen].radius;
+    const ShadingFrame frame = frame_make(direction);
+    const float3 through =
+        (float3)(casters[chosen].centre[0], casters[chosen].centre[1], casters[chosen].centre[2]) +
+        frame.x * d.x + frame.y * d.y;
+    uint hits = 1u;
+    for (uint i = 0u; i < f->casters; ++i) {
+        const float3 to =
+            (float3)(casters[i].centre[0], casters[i].centre[1], casters[i].centre[2]) - through;
+        const float3 off = math_cross(to, direction);
+        hits += i != chosen && math_dot(off, off) <= math_square(casters[i].radius);
+    }
+    const float3 centre = (float3)(f->scene_centre[0], f->scene_centre[1], f->scene_centre[2]);
+    *origin = through - direction * (math_dot(through - centre, direction) + 1.01f * f->scene_radius);
+    return MATH_PI * total / (float)hits;
+}
+
+/* Photon with the random numbers u of block 0: (point, aim, direction, choice of light and caster). */
+TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonFrame* f,
+                                        global const uint* light_tree, global const Caster* casters,
+                                        const SamplerBlock* u) {
+    PhotonSource s;
+    s.power = (float3)(0.0f);
+    s.range = 0.0f;
+    s.ray.t_max = INFINITY;
+    s.ray.skip_instance = s.ray.skip_primitive = TRIAD_NONE;
+    float within, probability;
+    const uint index = cdf_find(&f->lights, light_tree, u->x.s3, &within, &probability);
+    const Light light = scene->lights[index];
+    const float pick = random_float(u->y.s3);
+    const float2 on_light = (float2)(random_float(u->x.s0), random_float(u->y.s0));
+    const float2 aim = (float2)(random_float(u->x.s1), random_float(u->y.s1));
+    const float3 colour = (float3)(light.colour[0], light.colour[1], light.colour[2]);
+    const float3 axis = (float3)(light.axis[0], light.axis[1], light.axis[2]);
+    float3 origin = (float3)(light.position[0], light.position[1], light.position[2]), direction = axis;
+    (void)on_light, (void)colour, (void)pick, (void)aim;
+#if TRIAD_TRIANGLE_LIGHTS
+    if (light.type == LIGHT_TRIANGLE) {
+        const float2 b = sampling_triangle(on_light);
+        const float3 radiance = light_triangle_radiance(scene, &light, b);
+        origin += (float3)(light.edge1[0], light.edge1[1], light.edge1[2]) * b.x +
+                  (float3)(light.edge2[0], light.edge2[1], light.edge2[2]) * b.y;
+        const float solid_angle = photon_aim(casters, f->casters, origin, pick, aim, &direction);
+        float cosine = math_dot(axis, direction);
+        if (light.flags & MATERIAL_DOUBLE_SIDED) cosine = fabs(cosine);
+        origin += axis * (copysign(32.0f * 0x1.0p-23f, math_dot(axis, direction)) * max_abs3(origin));
+        if (cosine > 0.0f) s.power = radiance * (cosine * light.area * solid_angle / probability);
+        s.ray.skip_instance = 0u; /* emissive geometry is flattened */
+        s.ray.skip_primitive = light.primitive;
+    }
+#endif
+#if TRIAD_PUNCTUAL_LIGHTS
+    if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT) {
+        s.power = colour * (photon_aim(casters, f->casters, origin, pick, aim, &direction) / probability);
+        if (light.type == LIGHT_SPOT)
+            s.power *= math_square(
+                clamp(fma(math_dot(axis, direction), light.cone_scale, light.cone_offset), 0.0f, 1.0f));
+        s.range = light.range;
+    }
+    if (light.type == LIGHT_DIRECTIONAL)
+        s.power = colour * (photon_aim_from_afar(f, casters, direction, pick, aim, &origin) / probability);
+#endif
+#if TRIAD_ENVIRONMENT_MAP
+    if (light.type == LIGHT_ENVIRONMENT) {
+        const Environment e = scene->frame->environment;
+        float2 uv;
+        float pdf;
+        direction = -environment_sample(scene, &e, (uint2)(u->x.s0, u->y.s0), &uv);
+        const float3 radiance = environment_lookup(scene, &e, uv, &pdf);
+        if (pdf > 0.0f)
+            s.power = radiance *
+                      (photon_aim_from_afar(f, casters, direction, pick, aim, &origin) / (probability * pdf));
+    }
+#endif
+    s.ray.origin[0] = origin.x, s.ray.origin[1] = origin.y, s.ray.origin[2] = origin.z;
+    s.ray.direction[0] = direction.x, s.ray.direction[1] = direction.y, s.ray.direction[2] = direction.z;
+    return s;
+}
+
+#endif
