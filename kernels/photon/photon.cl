@@ -6,10 +6,9 @@
 #include "common/random.h"
 #include "common/spectrum.h"
 #include "shading/coverage.h"
-#include "shading/light.h"
+#include "shading/emission.h"
 #include "shading/vertex_bsdf.h"
 
-#include "photon/emit.h"
 #include "photon/splat.h"
 #include "subpixel/film.h"
 #include "traversal/traverse.h"

@@ -19,7 +19,9 @@ TEST_P(Suite, specialised_and_general_program_give_the_same_bits) {
     settings.width = 32, settings.height = 18;
     const auto film = [&](const std::optional<Features>& features) {
         Renderer renderer(test_device(), scene, settings, features);
-        if (!features) EXPECT_FALSE(left_out(renderer.features()).empty());
+        if (!features) {
+            EXPECT_FALSE(left_out(renderer.features()).empty());
+        }
         renderer.render({0, 4}, [](const Progress&) { return true; });
         return renderer.film();
     };

@@ -2,12 +2,13 @@
  * spheres around what reflects or refracts without blur. Every direction that hits some caster can be drawn,
  * so that aiming biases nothing; the density is that of the mixture over all casters (Veach 1997,
  * section 9.2.1, the one-sample model with the balance heuristic: weights by solid angle make the mixture
- * uniform where casters do not overlap). Include after shading/light.h. */
-#ifndef TRIAD_PHOTON_EMIT_H
-#define TRIAD_PHOTON_EMIT_H
+ * uniform where casters do not overlap). */
+#ifndef TRIAD_SHADING_EMISSION_H
+#define TRIAD_SHADING_EMISSION_H
 
 #include "common/frame.h"
 #include "common/sampling.h"
+#include "shading/light.h"
 
 typedef struct PhotonSource {
     Ray ray;
