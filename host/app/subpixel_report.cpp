@@ -54,14 +54,16 @@ std::string plot_script(const SubpixelReport& report, const std::string& scene) 
             data += "EOD\n";
         }
     std::string script =
-        "set terminal svg size 1100,900 dynamic font 'sans-serif,13' noenhanced background '#ffffff'\n"
+        "set terminal svg size 1400,900 dynamic font 'sans-serif,13' noenhanced background '#ffffff'\n"
         "set encoding utf8\nset logscale xy\nset format xy '%g'\nset grid lc rgb '#888888' lw 0.5 dt 1\n" +
-        data + "set multiplot layout 2,2 title " + gnuplot_quoted(scene) + "\n";
+        data + "set multiplot layout 2,2 margins 0.06,0.68,0.07,0.9 spacing 0.09,0.13 title " +
+        gnuplot_quoted(scene) + "\n";
     for (unsigned panel = 0; panel < 4; ++panel) {
         const bool time = panel == 3;
         script += std::string("set xlabel 'rays per pixel'\nset ylabel '") +
                   (time ? "seconds" : "perceived error") + "'\nset title '" + (time ? "time" : eyes[panel]) +
-                  "'\n" + (panel == 1 ? "set key outside right top font ',11'\n" : "unset key\n") + "plot ";
+                  "'\n" + (panel == 1 ? "set key at screen 0.99,0.9 right font ',11'\n" : "unset key\n") +
+                  "plot ";
         for (std::size_t f = 0; f < families.size(); ++f) {
             const bool own = families[f] == subpixel_yardstick;
             script += format("$f%zu_%u using 1:%d with linespoints lw %g dt %zu pt %zu ps 0.6 ", f,
