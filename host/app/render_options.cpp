@@ -239,9 +239,10 @@ void complete(RenderOptions& o) {
             "--pixel makes no picture: it cannot be combined with -o, --film, --crop, --error, --time or "
             "--adaptive.");
     if (o.integrator == Integrator::photons && (o.pixel || o.adaptive.value_or(false)))
-        throw Error(Exit::usage,
-                    "--integrator photons lights the picture as a whole: it cannot be combined with --pixel or "
-                    "--adaptive on; use --integrator path there.");
+        throw Error(
+            Exit::usage,
+            "--integrator photons lights the picture as a whole: it cannot be combined with --pixel or "
+            "--adaptive on; use --integrator path there.");
     if (o.pixel || o.adaptive.value_or(false)) o.integrator = Integrator::path;
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");

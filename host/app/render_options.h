@@ -31,7 +31,7 @@ struct RenderOptions {
     double roulette = RenderSettings{}.roulette;
     Integrator integrator = Integrator::automatic;
     std::uint64_t photons = 0;  ///< with every sample of the picture; 0: one for each pixel
-    bool independent = false;  ///< samples, instead of Sobol's sequence
+    bool independent = false;   ///< samples, instead of Sobol's sequence
     Spectral spectral = Spectral::automatic;
     ReconstructOptions reconstruct;
     std::string device;

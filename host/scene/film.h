@@ -63,8 +63,8 @@ std::array<double, 4> pixel_mean(const Film& film, std::size_t pixel);
 /// not known yet (a half without samples).
 std::vector<float> mean_variance(const Film& film);
 
-/// Means of the two halves of every pixel, [pixel][R, G, B]. weight * (first - second) has the variance of the
-/// pixel's mean.
+/// Means of the two halves of every pixel, [pixel][R, G, B]. weight * (first - second) has the variance of
+/// the pixel's mean.
 struct HalfMeans {
     std::vector<float> first, second;
     std::vector<float> weight;  ///< per pixel: sqrt(nA nB) / (nA + nB)

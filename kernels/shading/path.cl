@@ -45,7 +45,8 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
     int straight = 1; /* only transmissions so far: the camera looks through */
     int specular = 1; /* only delta events so far */
 #if TRIAD_PHOTONS
-    int caustic = 0; /* one event that is no delta event, and then delta events only: photons bring this light */
+    int caustic =
+        0; /* one event that is no delta event, and then delta events only: photons bring this light */
 #endif
     float body_scale =
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
