@@ -380,7 +380,7 @@ TRIAD_SIZE(Caster, 16);
 typedef struct PhotonFrame {
     uint count;
     uint casters;
-    float inverse_count;
+    uint unused;
     float pixel_area;      /* of a pixel on the image plane at distance 1 (orthographic: in scene units) */
     CdfShape lights;       /* the tree that photons pick their light by */
     float scene_centre[3]; /* of a sphere around what is drawn: light from afar starts outside */

@@ -227,7 +227,6 @@ dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings
     dev::PhotonFrame f{};
     f.count = std::uint32_t(count);
     f.casters = std::uint32_t(packed.casters.size());
-    f.inverse_count = 1.0f / float(count);
     f.pixel_area = 4 * frame.camera.extent[0] * frame.camera.extent[1] /
                    (frame.camera.pixels[0] * frame.camera.pixels[1]);
     f.lights = packed.photon_lights_shape;

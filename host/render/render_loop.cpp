@@ -16,6 +16,8 @@ constexpr double launch_seconds = 0.05;
 constexpr double launches_per_pass = 4;
 /// Samples of a pixel in one launch at most.
 constexpr double longest_run = 256;
+/// Of the photons of a sample that is cut: fewer would be too noisy even for few tiles.
+constexpr double least_photon_share = 0.25;
 
 }  // namespace
 
@@ -68,11 +70,12 @@ class RenderLoop {
     double next_estimate_ = 0.25;
     double relmse_ = -1;
     std::optional<double> perceived_noise_;
+    double photon_seconds_ = 0;  ///< of all photons of a sample
     std::uint64_t rays_ = 0;
 
     /// Photons go to the whole picture: a sample of theirs is one of every pixel.
     static RenderGoal even_with_photons(RenderGoal goal, std::uint64_t photons) {
-        if (photons > 0) goal.adaptive = false, goal.whole = true;
+        goal.adaptive = goal.adaptive && photons == 0;
         return goal;
     }
 
@@ -129,19 +132,35 @@ class RenderLoop {
             if (w.sample_count[0] + w.sample_count[1] > 0) work.push_back(w);
         }
         s_.device.write(s_.work, work.data(), work.size() * sizeof(dev::TileWork));
-        for (std::size_t first = 0; first < work.size();) {
-            if (may_be_cut && schedule_.time_is_up(samples(), seconds())) return false;
-            first += launch(work, first, may_be_cut);
-        }
-        if (s_.photons > 0) trace_photons(work.front());
-        return true;
+        std::size_t done = 0;
+        while (done < work.size() && !(may_be_cut && is_cut_after(done, work)))
+            done += launch(work, done, may_be_cut);
+        if (s_.photons > 0) trace_photons(work.front(), photon_share(done, work));
+        return done == work.size();
     }
 
-    /// The photons of an even pass.
-    void trace_photons(const dev::TileWork& any) {
+    /// Whether the pass ends after the first `done` tiles, to be in time with the photons that these take.
+    bool is_cut_after(std::size_t done, const std::vector<dev::TileWork>& work) const {
+        if (s_.photons == 0) return schedule_.time_is_up(samples(), seconds());
+        const double photons = photon_share(done, work) * photon_seconds_ * work.front().sample_count[0];
+        return done > 0 && schedule_.time_left(seconds() + photons) <= 0;
+    }
+
+    /// Of its photons, what a sample gets that goes to the first `done` tiles: as much, but enough of them.
+    static double photon_share(std::size_t done, const std::vector<dev::TileWork>& work) {
+        return std::max(least_photon_share, double(done) / double(work.size()));
+    }
+
+    /// The photons of an even pass, which `any` of its tiles tells about.
+    void trace_photons(const dev::TileWork& any, double share) {
+        const double began = seconds();
+        const auto count = std::uint64_t(std::ceil(share * double(s_.photons)));
+        const auto before = std::uint32_t(samples_before_) + any.first_sample[0];
         for (std::uint32_t i = 0; i < any.sample_count[0]; ++i)
-            s_.launch_photons(goal_.samples.begin + any.first_sample[0] + i);
+            s_.launch_photons(goal_.samples.begin + any.first_sample[0] + i, count, before + i + 1);
         s_.device.finish();
+        photon_seconds_ = (seconds() - began) / (any.sample_count[0] * share);
+        schedule_.set_least_step(least_photon_share * photon_seconds_ * double(s_.film.bins()));
     }
 
     /// The tiles in an order whose every beginning is spread over the picture: a pass that is cut favours no

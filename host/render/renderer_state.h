@@ -58,8 +58,9 @@ struct Renderer::State {
     void launch(std::size_t first, std::size_t count, std::uint64_t first_sample, std::size_t band);
     /// Uploads what photons need and compiles their kernel, where the scene wants them.
     void prepare_photons();
-    /// Adds the photons of a sample of the picture to the film.
-    void launch_photons(std::uint64_t sample);
+    /// Adds to the film the photons of a sample of the picture, `count` of them standing for all, where a
+    /// pixel holds `held` samples or more: that one is among them.
+    void launch_photons(std::uint64_t sample, std::uint64_t count, std::uint32_t held);
     void clear_film();
     void name_settings();  ///< in the film
     /// Fills source_names and light_source; before the packed arrays go.

@@ -92,14 +92,15 @@ double Schedule::pace(double samples, double seconds) const {
 
 bool Schedule::may_end_within_sample(double samples, double seconds) const {
     if (goal_.adaptive) return true;
-    return !goal_.whole && goal_.seconds > 0 && samples > 0 &&
+    return goal_.seconds > 0 && samples > 0 &&
            0.5 * bins_ * pace(samples, seconds) > missable * goal_.seconds;
 }
 
 bool Schedule::time_is_up(double samples, double seconds) const {
     if (goal_.seconds <= 0 || !(samples > 0)) return false;
-    const double close = may_end_within_sample(samples, seconds) ? 0.005 * goal_.seconds
-                                                                 : 0.5 * bins_ * pace(samples, seconds);
+    const double close = may_end_within_sample(samples, seconds)
+                             ? std::max(0.005 * goal_.seconds, 0.5 * least_step_)
+                             : 0.5 * bins_ * pace(samples, seconds);
     return time_left(seconds) <= close;
 }
 

@@ -15,7 +15,6 @@ struct RenderGoal {
     double error = 0;       ///< estimated relMSE of the picture; 0: not asked for
     double seconds = 0;     ///< of rendering; 0: not asked for
     bool adaptive = false;  ///< samples go where they lower the error most (render/adaptive.h)
-    bool whole = false;     ///< even renders end after whole samples, however long these take
     /// The perceived error's share that more samples lower, of a film, for reports; empty: not wanted. None:
     /// not known yet.
     std::function<std::optional<double>(const Film&)> perceived_noise;
@@ -67,6 +66,8 @@ class Schedule {
     /// Whether the render may end within a sample, on part of the picture: where sampling is adaptive, and
     /// where whole samples take so long that ending after one would miss the time asked for.
     bool may_end_within_sample(double samples, double seconds) const;
+    /// What the end of a sample takes at least, in seconds, however much of the picture it goes to.
+    void set_least_step(double seconds) { least_step_ = seconds; }
     /// Time to stop: within a sample if that is allowed, or else after the whole sample that is closest to
     /// the time asked for.
     bool time_is_up(double samples, double seconds) const;
@@ -83,6 +84,7 @@ class Schedule {
     double limit_, bins_;  ///< samples per pixel at most; bins of a pixel: every one gets as many samples
     Trend trend_;
     Stop stop_ = Stop::samples;
+    double least_step_ = 0;
     double round_began_samples_ = 0, round_began_seconds_ = 0;
 
     /// Seconds for one more sample per pixel: the pace of this round, or else of all.

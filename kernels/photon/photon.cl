@@ -19,9 +19,11 @@
 /* Names the photons' random numbers apart from those of the pixels. */
 #define PHOTON_STREAM 0xffffffffu
 
-/* A piece of the film, as pairs of uints: pixels [first_pixel, first_pixel + pixels) of the crop. */
-#define SPLAT_PARAMETERS \
-    volatile global uint *sums, volatile global uint *half_sums, uint first_pixel, uint pixels
+/* A piece of the film, as pairs of uints: pixels [first_pixel, first_pixel + pixels) of the crop. A pixel
+ * that holds fewer than `held` samples does not have the one that the photons belong to. */
+#define SPLAT_PARAMETERS                                                                                     \
+    volatile global uint *sums, volatile global uint *half_sums, global const uint *held_samples, uint held, \
+        uint first_pixel, uint pixels
 
 typedef struct PhotonTally {
     uint rays, not_finite, saturated;
@@ -45,6 +47,11 @@ TRIAD_FUNCTION void photon_splat(SPLAT_PARAMETERS, const Scene* scene, global co
     if (!(sight.importance > 0.0f && x >= 0.0f && y >= 0.0f && x < (float)frame->crop[2] &&
           y < (float)frame->crop[3]))
         return;
+    const uint px = min((uint)x, frame->crop[2] - 1u), py = min((uint)y, frame->crop[3] - 1u);
+    const size_t place = (size_t)py * frame->crop[2] + px;
+    if (held_samples[place] < held) return;
+    const size_t pixel = place - first_pixel;
+    if (pixel >= pixels) return; /* of another piece, on either side */
     const float facing = math_dot(sight.direction, s->geometric_normal),
                 lit = math_dot(wi, s->geometric_normal);
     if (facing == 0.0f || lit == 0.0f) return;
@@ -57,7 +64,7 @@ TRIAD_FUNCTION void photon_splat(SPLAT_PARAMETERS, const Scene* scene, global co
     if (!(wi_local.z * math_dot(wi, ng) > 0.0f)) return; /* light must not go through by the shading normal */
     float pdf;
     const float3 f = bsdf_eval(&v.bsdf, v.wo, wi_local, &pdf); /* f |wi . ns| */
-    float3 value = power * f * (fabs(facing / lit) * sight.importance * photon_frame->inverse_count);
+    float3 value = power * f * (fabs(facing / lit) * sight.importance);
     if (!(max_abs3(value) > 0.0f)) return; /* light of one wavelength is signed */
 #if TRIAD_TRANSMISSION
     const uint body = through ? beyond.s0 : here.s0;
@@ -70,11 +77,8 @@ TRIAD_FUNCTION void photon_splat(SPLAT_PARAMETERS, const Scene* scene, global co
         ++tally->not_finite;
         return;
     }
-    const uint px = min((uint)x, frame->crop[2] - 1u), py = min((uint)y, frame->crop[3] - 1u);
     const uint bx = min((uint)((x - (float)px) * (float)frame->bins[0]), frame->bins[0] - 1u),
                by = min((uint)((y - (float)py) * (float)frame->bins[1]), frame->bins[1] - 1u);
-    const size_t pixel = (size_t)py * frame->crop[2] + px - first_pixel;
-    if (pixel >= pixels) return; /* of another piece, on either side */
     const size_t bin = pixel * (frame->bins[0] * frame->bins[1]) + by * frame->bins[0] + bx;
     const float channels[3] = {value.x, value.y, value.z};
     for (uint c = 0u; c < 3u; ++c) {
@@ -88,7 +92,8 @@ TRIAD_FUNCTION void photon_splat(SPLAT_PARAMETERS, const Scene* scene, global co
     SCENE_PARAMETERS, volatile global uint *sums, volatile global uint *half_sums,                         \
         volatile global uint *counters, global const PhotonFrame *photon_frame,                            \
         global const uint *photon_lights, global const Caster *casters, uint sample_low, uint sample_high, \
-        uint first_photon, uint photon_count, uint first_pixel, uint pixels
+        uint first_photon, uint photon_count, float share, global const uint *held_samples, uint held,     \
+        uint first_pixel, uint pixels
 
 TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
     if (item >= photon_count) return;
@@ -165,10 +170,10 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
 #if TRIAD_ALPHA_TEST
             coverage.ray += 1u;
 #endif
-            float3 power = source.power * throughput * filter;
+            float3 power = source.power * throughput * filter * share;
             if (source.range > 0.0f) power *= 1.0f - math_square(math_square(length / source.range));
-            photon_splat(sums, half_sums, first_pixel, pixels, &scene, photon_frame, &traversal, &s, &hit, wi,
-                         bodies, beyond, wavelength, power,
+            photon_splat(sums, half_sums, held_samples, held, first_pixel, pixels, &scene, photon_frame,
+                         &traversal, &s, &hit, wi, bodies, beyond, wavelength, power,
                          (float2)(random_float(u.x.s2), random_float(u.y.s2)), half_index, &tally);
         }
         const VertexBsdf v = vertex_bsdf(&scene, &s, wi, ng, back, bodies, beyond, wavelength);
@@ -201,8 +206,10 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
     counter_add(counters, COUNTER_SATURATED, tally.saturated);
 }
 
-/* Photons [first_photon, first_photon + photon_count) of a sample of the picture, for a piece of the film. */
+/* Photons [first_photon, first_photon + photon_count) of a sample of the picture, for a piece of the film.
+ * share: one over the number of photons that are traced for the sample. */
 kernel void trace_photons(PHOTON_PARAMETERS) {
     trace_photon(SCENE_ARGUMENTS, sums, half_sums, counters, photon_frame, photon_lights, casters, sample_low,
-                 sample_high, first_photon, photon_count, first_pixel, pixels, get_global_id(0));
+                 sample_high, first_photon, photon_count, share, held_samples, held, first_pixel, pixels,
+                 get_global_id(0));
 }

@@ -70,6 +70,30 @@ TEST(RenderGoal, an_even_render_that_time_ends_within_a_sample_has_one_more_of_s
     expect_first_samples(settings, film);
 }
 
+TEST(RenderGoal, photons_of_a_sample_that_time_cuts_count_in_its_pixels_alone) {
+    RenderSettings settings = analytic::varied_settings();
+    settings.width = settings.height = 400;
+    settings.integrator = Integrator::photons;
+    settings.photons = 200000;
+    const Film film = render_to(test_device(), settings, {.samples = {0, 4096}, .seconds = 0.9});
+    const SampleNumbers n = film.sample_numbers();
+    EXPECT_LE(n.most, n.least + 1);
+    const Film even = render_to(test_device(), settings, {.samples = {0, n.least}});
+    double light = 0, more = 0, as_even = 0;
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double extra = double(film.sums[p * 4 + c] - even.sums[p * 4 + c]);
+            if (film.samples[p] == n.least) {
+                ASSERT_EQ(extra, 0) << p;
+            } else {
+                light += extra, as_even += double(even.sums[p * 4 + c]) / n.least, ++more;
+            }
+        }
+    if (more > 30000) {  // a slow device ends after whole samples
+        EXPECT_NEAR(light / as_even, 1.0, 0.1);
+    }
+}
+
 TEST(RenderGoal, a_time_that_ends_within_a_pass_leaves_a_film_that_counts_right) {
     const RenderSettings settings = analytic::varied_settings();
     Scene scene = analytic::varied_scene();
