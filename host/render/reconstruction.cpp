@@ -178,6 +178,7 @@ class Maker {
             choose_bins({3, 3});
             r_.taps = displaced_box_taps(r_.panel->panel, r_.bins_x, r_.bins_y);
             r_.filter = "displaced box";
+            r_.order = ToneOrder::noise_aware;
         } else if (name == "platt") {
             const bool nine = r_.method == "platt";
             r_.taps = platt_taps(r_.panel->panel, r_.panel->ppd, nine);
@@ -197,6 +198,7 @@ class Maker {
         if (r_.panel) {
             r_.taps = displaced(*c_.filter, *r_.panel, bins());
             r_.filter += ", displaced";
+            r_.order = ToneOrder::noise_aware;
         } else {
             r_.taps = filter_taps(*c_.filter, r_.bins_x, r_.bins_y);
             r_.order = ToneOrder::per_pixel;
@@ -222,6 +224,7 @@ class Maker {
         choose_bins({3, 3});
         r_.taps = designed({.bins_x = r_.bins_x, .bins_y = r_.bins_y});
         r_.filter = "optimal";
+        r_.order = ToneOrder::noise_aware;
         if (c_.refine_steps > 0 && !r_.panel->panel.advice.full_pixel) {
             r_.refine = design_refine(r_.panel->panel, r_.panel->ppd);
             r_.refine_steps = c_.refine_steps;
@@ -245,7 +248,8 @@ const std::vector<MethodWords>& reconstruction_methods() {
         {"platt:3", "three samples per pixel, three optimal filters", true},
         {"random3", "rays by the optimal filters, one path for each channel", true},
         {"random3:shared", "rays by the optimal filters, one path for all channels", true},
-        {"triad", "3 x 3 bins, tone-mapped one by one, optimal taps, bounded refinement", true}};
+        {"triad", "3 x 3 bins, tone-mapped one by one where rays suffice, optimal taps, bounded refinement",
+         true}};
     return methods;
 }
 

@@ -16,10 +16,13 @@ enum class ToneMap { none, khronos, aces, agx };
 
 /// When the pipeline from bins to pixels maps tones.
 enum class ToneOrder {
-    per_pixel,       ///< what the taps have added up: radiance
-    per_bin,         ///< every bin, so that the taps add light that a display shows
-    never,           ///< scene-linear radiance goes through, negative values too; alpha is cut to [0, 1]
-    per_bin_encoded  ///< every bin, and the taps add its sRGB-encoded values
+    per_pixel,        ///< what the taps have added up: radiance
+    per_bin,          ///< every bin, so that the taps add light that a display shows
+    never,            ///< scene-linear radiance goes through, negative values too; alpha is cut to [0, 1]
+    per_bin_encoded,  ///< every bin, and the taps add its sRGB-encoded values
+    /// per_bin, but that bins of a film which differ by noise, for lack of rays, are mapped along the tangent
+    /// at their pixel's mean (kernels/subpixel/noise.h)
+    noise_aware
 };
 
 /// bins -> exposure, tone map, background -> taps -> refinement -> drives, all on the device.

@@ -2,6 +2,7 @@
 #include "common/language.h"
 
 #include "subpixel/display.h"
+#include "subpixel/noise.h"
 
 /* Cells that a work-item fills, one after the other: 16 for a CPU's vectors, 1 where neighbours in memory are
  * to be neighbours in a work-group. */
@@ -51,25 +52,81 @@ TRIAD_FUNCTION void bin_store(global const DisplaySlab* slab, global float* plan
     if (slab->channels == 4u) to[3 * channel] = v.w;
 }
 
-/* sums: [pixel][bin][R, G, B, alpha] in units of slab->unit; samples: per pixel, over all bins, spread evenly
- * over them. */
+/* A bin of a film's pixel, as radiance times exposure, and alpha. sums: [pixel][bin][R, G, B, alpha] in units
+ * of slab->unit; samples: per pixel, over all bins, spread evenly over them. */
+TRIAD_FUNCTION float4 film_bin(global const DisplaySlab* slab, global const long* sums,
+                               global const uint* samples, size_t pixel, uint bin) {
+    const uint bins = slab->bins[0] * slab->bins[1], count = samples[pixel];
+    const float unit = count > 0u ? slab->unit * convert_float(bins) / convert_float(count) : 0.0f;
+    float4 v = convert_float4(vload4(pixel * bins + bin, sums)) * unit;
+    v.xyz *= slab->exposure;
+    return v;
+}
+
 kernel void map_film(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
                      global float* planes, uint items) {
     const uint item = (uint)get_global_id(0);
     if (item >= items) return;
     const BinRun run = bin_run(slab, item);
-    const uint bins_x = slab->bins[0], bins = bins_x * slab->bins[1];
     const size_t row = (size_t)(run.source_row / slab->bins[1] - slab->source_row) * slab->width;
-    const uint first_bin = run.source_row % slab->bins[1] * bins_x;
+    const uint first_bin = run.source_row % slab->bins[1] * slab->bins[0];
+    for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
+        const uint2 column = bin_column(slab, &run, lane);
+        bin_store(slab, planes, &run, lane,
+                  display_of_bin(slab, film_bin(slab, sums, samples, row + column.x, first_bin + column.y)));
+    }
+}
+
+/* The same, where bins differ by noise as well: each is the mixture that weigh_noise found. */
+kernel void map_noisy_film(global const DisplaySlab* slab, global const long* sums,
+                           global const uint* samples, global float* planes, uint items,
+                           global const float* means) {
+    const uint item = (uint)get_global_id(0);
+    if (item >= items) return;
+    const BinRun run = bin_run(slab, item);
+    const size_t row = (size_t)(run.source_row / slab->bins[1] - slab->source_row) * slab->width;
+    const uint first_bin = run.source_row % slab->bins[1] * slab->bins[0];
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
         const uint2 column = bin_column(slab, &run, lane);
         const size_t pixel = row + column.x;
-        const uint count = samples[pixel];
-        const float unit = count > 0u ? slab->unit * convert_float(bins) / convert_float(count) : 0.0f;
-        float4 v = convert_float4(vload4(pixel * bins + first_bin + column.y, sums)) * unit;
-        v.xyz *= slab->exposure;
-        bin_store(slab, planes, &run, lane, display_of_bin(slab, v));
+        bin_store(slab, planes, &run, lane,
+                  noise_display(slab, film_bin(slab, sums, samples, pixel, first_bin + column.y),
+                                means + pixel * NOISE_RECORD));
     }
+}
+
+/* What noise_display needs to know of every pixel of `rows` rows of the film's buffers. A pixel's bins and
+ * those around it tell noise from structure: what is structure is alike in neighbouring bins. */
+kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
+                        global float* means, uint rows) {
+    const uint pixel = (uint)get_global_id(0), x = pixel % slab->width, y = pixel / slab->width;
+    if (y >= rows) return;
+    const uint bins_x = slab->bins[0], bins_y = slab->bins[1], bins = bins_x * bins_y;
+    float above[NOISE_MOST_BINS + 2];
+    NoiseSums noise = {0.0f, 0.0f, 0.0f, 0u, 0u};
+    float4 mean = (float4)(0.0f);
+    for (int v = -1; v <= (int)bins_y; ++v) {
+        float left = 0.0f;
+        for (int u = -1; u <= (int)bins_x; ++u) {
+            const uint column = display_reflect((int)(x * bins_x) + u, slab->columns);
+            const uint row = display_reflect((int)((slab->source_row + y) * bins_y) + v, slab->rows);
+            const uint at = min(row / bins_y - min(slab->source_row, row / bins_y), rows - 1u);
+            const float4 bin = film_bin(slab, sums, samples, (size_t)at * slab->width + column / bins_x,
+                                        row % bins_y * bins_x + column % bins_x);
+            const int inside = u >= 0 && v >= 0 && u < (int)bins_x && v < (int)bins_y;
+            if (inside) mean += bin;
+            const float value = noise_value(bin);
+            noise_add(&noise, value);
+            if (u >= 0) noise_add_pair(&noise, value, left);
+            if (v >= 0) noise_add_pair(&noise, value, above[u + 1]);
+            above[u + 1] = left = value;
+        }
+    }
+    global float* to = means + (size_t)pixel * NOISE_RECORD;
+    mean *= 1.0f / convert_float(bins);
+    vstore4(mean, 0, to);
+    vstore4(display_of_bin(slab, mean), 1, to);
+    to[8] = noise_share(&noise) * math_sqrt(convert_float(bins) / convert_float(max(samples[pixel], bins)));
 }
 
 /* image: [row][column][R, G, B, alpha], colour associated; of encoded ones not, as in their files. */

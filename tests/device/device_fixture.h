@@ -20,4 +20,10 @@ inline Device& test_device() {
     return *device;
 }
 
+/// The same device, as if its largest allocation were of so many bytes.
+inline Device limited_device(std::size_t bytes) {
+    const char* selector = std::getenv("TRIAD_TEST_DEVICE");
+    return Device::open({.selector = selector ? selector : "", .largest_allocation = bytes});
+}
+
 }  // namespace triad

@@ -165,8 +165,7 @@ TEST(Refinement, white_stays_white_and_black_black) {
 }
 
 TEST(Refinement, pieces_of_little_memory_give_the_bits_of_one) {
-    const char* selector = std::getenv("TRIAD_TEST_DEVICE");
-    Device small = Device::open({.selector = selector ? selector : "", .largest_allocation = 128 * 1024});
+    Device small = limited_device(128 * 1024);
     const BinImage image = checks(80, 300, 2);
     for (const unsigned cell : {1u, 2u}) {
         const DisplaySettings settings =

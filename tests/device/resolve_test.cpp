@@ -99,11 +99,6 @@ void expect_sums(Device& device, const BinImage& image, const TapTable& table, c
     }
 }
 
-Device limited_device(std::size_t bytes) {
-    const char* selector = std::getenv("TRIAD_TEST_DEVICE");
-    return Device::open({.selector = selector ? selector : "", .largest_allocation = bytes});
-}
-
 }  // namespace
 
 TEST(Taps, filters_are_the_sums_that_they_say) {

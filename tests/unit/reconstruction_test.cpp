@@ -52,7 +52,7 @@ TEST(Reconstruction, methods_are_the_triples_of_the_table) {
     expect_bins(triad, 3, 3);
     EXPECT_TRUE(triad.refine && triad.taps && triad.panel && triad.display_linear());
     EXPECT_EQ(triad.ray_start, RayStart::jitter);
-    EXPECT_EQ(triad.order, ToneOrder::per_bin);
+    EXPECT_EQ(triad.order, ToneOrder::noise_aware);
     ReconstructionChoice choice;
     choice.panel = view("rgb");
     EXPECT_EQ(reconstruction_of(choice).method, "triad");

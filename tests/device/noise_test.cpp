@@ -1,0 +1,135 @@
+// Tone maps of films whose bins hold few rays: noise keeps its mean, edges stay tame, and what has converged
+// is what it was.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "device_fixture.h"
+#include "render/reconstruction.h"
+
+using namespace triad;
+
+namespace {
+
+constexpr unsigned width = 40, height = 24;
+
+/// 3 x 3 bins of `rays` each, whose means are those of `colour(x, y)`, in bins.
+Film film_of(unsigned rays, const std::function<vec3(unsigned, unsigned)>& colour) {
+    Film film;
+    film.full_width = film.width = width, film.full_height = film.height = height;
+    film.bins_x = film.bins_y = 3;
+    film.quanta_log2 = 30;
+    film.samples.assign(film.pixels(), rays * 9);
+    film.ranges = {{0, rays * 9}};
+    film.sums.resize(film.pixels() * 36);
+    film.half_sums.resize(film.pixels() * 3);
+    const double unit = std::ldexp(double(rays), film.quanta_log2);
+    for (unsigned y = 0; y < height * 3; ++y)
+        for (unsigned x = 0; x < width * 3; ++x) {
+            const vec3 c = colour(x, y);
+            const std::size_t bin = (y / 3 * width + x / 3) * 9 + y % 3 * 3 + x % 3;
+            for (int i = 0; i < 3; ++i) film.sums[bin * 4 + i] = std::int64_t(double(c[i]) * unit);
+            film.sums[bin * 4 + 3] = std::int64_t(unit);
+        }
+    return film;
+}
+
+/// Most rays find nothing; the others are bright.
+Film noise(unsigned rays) {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> any;
+    return film_of(rays,
+                   [&](unsigned, unsigned) { return vec3(any(random) < 0.25f ? 8.0f * any(random) : 0); });
+}
+
+std::vector<float> shown(const Film& film, ToneOrder order) {
+    return resolve_display(test_device(), film, {.order = order, .alpha = false});
+}
+
+double mean_of(const std::vector<float>& rgba) {
+    double sum = 0;
+    for (std::size_t i = 0; i < rgba.size(); i += 4) sum += rgba[i];
+    return sum / (double(rgba.size()) / 4);
+}
+
+double greatest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(double(a[i]) - b[i]));
+    return most;
+}
+
+}  // namespace
+
+TEST(Noise, of_single_rays_does_not_darken) {
+    const Film film = noise(1);
+    const double pixel = mean_of(shown(film, ToneOrder::per_pixel));
+    const double bins = mean_of(shown(film, ToneOrder::per_bin));
+    EXPECT_LT(bins, 0.8 * pixel) << "or there is nothing to mend";
+    EXPECT_NEAR(mean_of(shown(film, ToneOrder::noise_aware)), pixel, 0.15 * (pixel - bins));
+}
+
+TEST(Noise, is_believed_less_the_more_rays_there_are) {
+    const std::vector<float> bins = shown(noise(1), ToneOrder::per_bin);
+    double before = 1;
+    for (const unsigned rays : {1u, 4u, 16u, 10000u}) {
+        const double left = greatest_difference(shown(noise(rays), ToneOrder::noise_aware), bins);
+        EXPECT_LT(left, before) << rays;
+        before = left;
+    }
+    EXPECT_LT(before, 0.02);
+}
+
+TEST(Noise, is_not_seen_in_the_edges_of_lamps) {
+    // Bright bins beside dark ones, cutting through pixels.
+    const Film film = film_of(1, [](unsigned x, unsigned y) { return vec3(x + y / 2 < 61 ? 200.0f : 0.1f); });
+    const auto bins = shown(film, ToneOrder::per_bin), pixels = shown(film, ToneOrder::per_pixel),
+               both = shown(film, ToneOrder::noise_aware);
+    EXPECT_GT(greatest_difference(bins, pixels), 0.5);
+    double squares = 0, whole = 0;
+    for (std::size_t i = 0; i < bins.size(); i += 4)
+        squares += std::pow(both[i] - bins[i], 2), whole += std::pow(pixels[i] - bins[i], 2);
+    EXPECT_LT(std::sqrt(squares / whole), 0.4);
+}
+
+TEST(Noise, changes_no_constant_on_any_panel) {
+    for (const Panel& panel : builtin_panels())
+        for (const float level : {0.0f, 0.3f, 1.0f}) {
+            ReconstructionChoice choice;
+            choice.panel = PanelView{panel, 45};
+            DisplaySettings settings;
+            settings.tone_map = ToneMap::none;
+            apply(reconstruction_of(choice), settings);
+            ASSERT_EQ(settings.order, ToneOrder::noise_aware);
+            const Film film = film_of(1, [&](unsigned, unsigned) { return vec3(level); });
+            const auto drives = resolve_display(test_device(), film, settings);
+            for (std::size_t i = 0; i < drives.size(); ++i)
+                ASSERT_NEAR(drives[i], i % 4 == 3 ? 1.0f : level, 1e-6) << panel.name;
+        }
+}
+
+TEST(Noise, of_a_million_or_without_end_gives_drives) {
+    for (const float bright : {1e6f, 8e9f}) {
+        std::mt19937 random(5);
+        const Film film =
+            film_of(1, [&](unsigned, unsigned) { return vec3(random() % 20 ? 0.01f : bright); });
+        for (const ToneMap map : {ToneMap::none, ToneMap::khronos, ToneMap::aces, ToneMap::agx})
+            for (const float exposure : {0.0f, 64.0f})
+                for (const float v : resolve_display(
+                         test_device(), film,
+                         {.exposure_ev = exposure, .tone_map = map, .order = ToneOrder::noise_aware}))
+                    ASSERT_TRUE(v >= 0.0f && v <= 1.0f) << v;
+    }
+}
+
+TEST(Noise, is_weighed_alike_in_pieces_of_little_memory) {
+    ReconstructionChoice choice;
+    choice.panel = PanelView{*builtin_panel("rgb"), 45};
+    DisplaySettings settings;
+    apply(reconstruction_of(choice), settings);
+    settings.refine.reset();
+    Device small = limited_device(96 * 1024);
+    const Film film = noise(1);
+    EXPECT_EQ(resolve_display(small, film, settings), resolve_display(test_device(), film, settings));
+}
