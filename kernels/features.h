@@ -27,6 +27,9 @@
 #ifndef TRIAD_DISPERSION /* some body refracts every wavelength otherwise, or every path has a wavelength */
 #define TRIAD_DISPERSION 1
 #endif
+#ifndef TRIAD_LIGHT_SPECTRA /* some light has a spectrum of its own, and paths have wavelengths */
+#define TRIAD_LIGHT_SPECTRA 1
+#endif
 #ifndef TRIAD_PRIORITIES /* bodies that overlap may differ in priority */
 #define TRIAD_PRIORITIES 1
 #endif

@@ -192,13 +192,19 @@ TRIAD_SIZE(Material, 128);
 #define SPECTRUM_STEP 5.0f
 #define SPECTRUM_ROWS 81
 #define WAVELENGTH_NODES 513
+/* Tables of lights' spectra: rows of 1 nm from SPECTRUM_FIRST on, so that lines are narrow. */
+#define LIGHT_SPECTRUM_ROWS 401
 
+/* The first of a scene is what paths draw from; after it comes one for each spectrum that lights have of
+ * their own, which photons of these lights draw from. */
 typedef struct Spectrum {
     float wavelength[WAVELENGTH_NODES]; /* nm: inverse of the distribution that wavelengths are drawn from */
     float filter[SPECTRUM_ROWS][4];     /* linear Rec.709 per nm, signed; the integral is (1, 1, 1) */
     float basis[SPECTRUM_ROWS][4];      /* what the primaries of Rec.709 reflect; the sum is 1 */
+    float light[LIGHT_SPECTRUM_ROWS];   /* the light's spectrum over D65, at equal luminance */
+    float colour[3]; /* of the light, all wavelengths together: linear Rec.709, signed, of luminance 1 */
 } Spectrum;
-TRIAD_SIZE(Spectrum, 4644);
+TRIAD_SIZE(Spectrum, 6260);
 
 /* ---- Lights ---- */
 
@@ -210,6 +216,7 @@ TRIAD_SIZE(Spectrum, 4644);
 
 #define LIGHT_PHOTONS \
     0x100u /* photons bring what mirrors and glass throw of this light onto other surfaces */
+#define LIGHT_SPECTRUM_SHIFT 16 /* flags above: which Spectrum; 0: D65, or a colour that says it all */
 
 /* colour: radiance factor of a triangle (texture not included), intensity W/sr of point and spot, irradiance
  * of directional. Emissive geometry is always flattened, so positions are in rebased world space. */
@@ -225,7 +232,7 @@ typedef struct Light {
     float edge2[3];    /* TRIANGLE: corner 2 - corner 0 */
     float cone_offset;
     float axis[3]; /* unit; TRIANGLE: normal of the front; SPOT, DIRECTIONAL: where the light goes */
-    uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material; LIGHT_PHOTONS */
+    uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material; LIGHT_PHOTONS; LIGHT_SPECTRUM_SHIFT */
     float colour[3];
     float area_per_pick; /* TRIANGLE: area / pick */
 } Light;

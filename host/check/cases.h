@@ -18,6 +18,7 @@ void add_bsdf_energy(std::vector<CheckCase>& cases);
 void add_lights(std::vector<CheckCase>& cases);
 void add_light_samplers(std::vector<CheckCase>& cases);
 void add_spectral(std::vector<CheckCase>& cases);
+void add_light_spectra(std::vector<CheckCase>& cases);
 void add_film(std::vector<CheckCase>& cases);
 
 void add_invariance(std::vector<CheckCase>& cases);

@@ -109,7 +109,8 @@ Measured measure(Device& device, const Scene& scene, const Plan& plan,
         settings.max_depth = plan.max_depth;
         const Film film = render(device, scene, settings, {{0, plan.spp}}, features);
         double mean = 0;
-        for (std::size_t p = 0; p < film.pixels(); ++p) mean += pixel_mean(film, p)[1];
+        for (std::size_t p = 0; p < film.pixels(); ++p)
+            mean += pixel_mean(film, p)[std::size_t(plan.channel)];
         mean /= static_cast<double>(film.pixels());
         sum += mean;
         squares += mean * mean;

@@ -39,7 +39,7 @@ RenderSettings varied_settings();
 Film render(Device& device, const Scene& scene, const RenderSettings& settings,
             const std::vector<SampleRange>& ranges, const std::optional<Features>& features = {});
 
-/// Mean of the green channel over the picture, and the standard error of that mean from independent seeds.
+/// Mean of a channel over the picture, and the standard error of that mean from independent seeds.
 struct Measured {
     double mean = 0, standard_error = 0;
     std::uint64_t not_finite = 0;
@@ -48,6 +48,7 @@ struct Measured {
 struct Plan {
     View view;
     unsigned size = 16, spp = 64, seeds = 8, max_depth = 0;
+    int channel = 1;
 };
 
 Measured measure(Device& device, const Scene& scene, const Plan& plan,

@@ -147,6 +147,30 @@ void check_index_accessors(const json& document) {
         }
 }
 
+/// The parser leaves out what is null or empty: a light would lose its spectrum without a word.
+void check_not_empty(const json& value, const std::string& name) {
+    if (value.is_null() || (value.is_structured() && value.empty()))
+        throw Error(Exit::scene, name + " is empty; give it a value or leave it out.");
+    if (!value.is_structured()) return;
+    for (const auto& [member, content] : value.items())
+        check_not_empty(content,
+                        value.is_array() ? name + "[" + member + "]" : name + "." + member.substr(0, 40));
+}
+
+void check_extras(const json& list, const char* kind) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (const auto extras = list[i].find("extras"); extras != list[i].end() && extras->is_object())
+            if (const auto triad = extras->find("triad"); triad != extras->end() && !triad->empty())
+                check_not_empty(*triad, label(kind, i, text_of(list[i], "name")) + ": extras.triad");
+}
+
+void check_extras(const json& document) {
+    if (const auto materials = document.find("materials"); materials != document.end())
+        check_extras(*materials, "material");
+    if (const json::json_pointer lights("/extensions/KHR_lights_punctual/lights"); document.contains(lights))
+        check_extras(document[lights], "light");
+}
+
 /// Removes members that no part of Triad reads, wherever they are: less to parse, nothing to trip over.
 void strip(json& document) {
     for (const char* member : {"buffers", "images", "animations", "skins", "extras"}) document.erase(member);
@@ -221,6 +245,7 @@ File read_file(const fs::path& path) {
     check_extensions(document, file);
     check_document(document);
     check_index_accessors(document);
+    check_extras(document);
     read_buffers(document, path.parent_path(), container, file);
     check_views(document);
     json images = document.contains("images") ? std::move(document["images"]) : json();

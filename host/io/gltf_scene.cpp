@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "io/gltf_accessor.h"
+#include "io/gltf_extras.h"
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
 #include "scene/scene.h"
@@ -202,6 +203,7 @@ class SceneBuilder {
         light.inner_cone = float(source.spot.innerConeAngle);
         if (light.type == PunctualLight::Type::spot && light.inner_cone > light.outer_cone)
             throw Error(Exit::scene, what + " has an innerConeAngle larger than its outerConeAngle.");
+        light.spectrum = light_extras(source.extras, what, [this](const std::string& s) { file_.warn(s); });
         scene_.lights.push_back(light);
     }
 

@@ -146,6 +146,13 @@ const std::map<std::string, Recipe>& recipes() {
         {"DISPERSION",
          {[](FeatureScene& s) { s.scene.materials[ring_material].dispersion = find_glass("N-BK7"); },
           use_glass}},
+        {"LIGHT_SPECTRA",
+         {[](FeatureScene& s) { s.scene.materials[lamp_material].emission_spectrum = LightSpectrum{}; },
+          [](FeatureScene& s) {
+              use_glass(s);
+              s.scene.materials[ring_material].dispersion = find_glass("N-BK7");
+              s.scene.materials[lamp_material].emission = vec3(5.0f);
+          }}},
         {"PRIORITIES", {[](FeatureScene& s) { s.scene.materials[ring_material].priority = 1; }, use_glass}},
         {"UNLIT", {[](FeatureScene& s) { s.scene.materials[rock_material].unlit = true; }}},
         {"TRIANGLE_LIGHTS",

@@ -16,6 +16,7 @@ constexpr FeatureOption table[] = {
     {"SPECULAR", &Features::specular},
     {"TRANSMISSION", &Features::transmission},
     {"DISPERSION", &Features::dispersion},
+    {"LIGHT_SPECTRA", &Features::light_spectra},
     {"PRIORITIES", &Features::priorities},
     {"UNLIT", &Features::unlit},
     {"TRIANGLE_LIGHTS", &Features::triangle_lights},
@@ -68,6 +69,7 @@ Features features_of(const Scene& scene, const RenderSettings& settings, const P
     f.dispersion = settings.spectral == Spectral::classic ||
                    (settings.spectral != Spectral::off &&
                     any([](const Material& m) { return m.dispersion.has_value(); }));
+    f.light_spectra = packed.spectrum.size() > 1;
     f.priorities = any([](const Material& m) { return m.priority != 0; });
     f.unlit = any([](const Material& m) { return m.unlit; });
     f.triangle_lights = any([](const Material& m) { return m.emission != vec3(0.0f); });

@@ -22,6 +22,7 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings) {
     pack_spectrum(scene, settings, packed);
     pack_environment(scene, settings, packed);
     pack_lights(scene, packed);
+    pack_wavelengths(packed);
     pack_photons(scene, settings, packed);
     packed.flattened = {};
     return packed;

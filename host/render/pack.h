@@ -13,6 +13,13 @@
 
 namespace triad {
 
+/// A spectrum that some light has.
+struct PackedLightSpectrum {
+    LightSpectrum spectrum;
+    vec3 colour;              ///< all wavelengths together, signed, of luminance 1
+    std::uint32_t index = 0;  ///< in PackedScene::spectrum; 0: nothing tells its wavelengths apart
+};
+
 /// The arrays of kernels/shading/scene.h, on the host.
 struct PackedScene {
     dvec3 origin{
@@ -46,6 +53,7 @@ struct PackedScene {
     dev::CdfShape photon_lights_shape{};
     std::string integrator;  ///< which one was chosen, and why: a sentence
     dev::Environment environment{};
+    std::vector<PackedLightSpectrum> light_spectra;  ///< all different
 };
 
 /// Packs what `settings.view` may see of the scene. Precondition: validate(scene) was called.
@@ -92,10 +100,21 @@ void write_columns(const dev::ColumnsShape& shape, std::size_t row, std::span<co
 /// The sRGB transfer function's inverse (IEC 61966-2-1).
 double srgb_decode(double encoded);
 
+/// What a light's spectrum makes of its colour. After pack_spectrum().
+struct LightColour {
+    vec3 seen{1.0f};  ///< factor of the colour, all wavelengths together
+    vec3 tint{1.0f};  ///< factor that kernels find in the colour: `seen`, or 1 where `index` says the rest
+    std::uint32_t index = 0;  ///< in PackedScene::spectrum
+};
+LightColour light_colour(const PackedScene& packed, const std::optional<LightSpectrum>& spectrum);
+
 // Parts of pack(), one file each.
 void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_materials(const Scene& scene, PackedScene& packed);
+/// After pack_materials().
 void pack_spectrum(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
+/// What paths draw their wavelengths from, where lights have spectra. After pack_lights().
+void pack_wavelengths(PackedScene& packed);
 void pack_lights(const Scene& scene, PackedScene& packed);
 void pack_environment(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 /// Decides whether photons are used, and aims them. After pack_lights().

@@ -12,7 +12,9 @@ namespace {
 constexpr double even_share = 0.2;
 
 /// What lights are weighed by: all channels alike, as the error of a picture counts them.
-double average(const vec3& c) { return (double(c.x) + c.y + c.z) / 3.0; }
+double average(const vec3& c) { return (std::abs(double(c.x)) + std::abs(c.y) + std::abs(c.z)) / 3.0; }
+
+double largest(const vec3& c) { return std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)}); }
 
 /// Mean of an emission texture over its whole image: a guess of what a triangle sees of it, good enough to
 /// pick lights by.
@@ -67,9 +69,10 @@ void add_triangles(const Scene& scene, Picker& picker) {
         const Material& m = scene.materials[g.material];
         if (m.emission == vec3(0.0f) || m.unlit) continue;
         if (in_tree.empty()) in_tree = drawn(packed);
-        const double radiance = average(m.emission) * texture_average(scene, m.emission_texture);
-        picker.brightest =
-            std::max({picker.brightest, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
+        const LightColour colour = light_colour(packed, m.emission_spectrum);
+        const double radiance =
+            average(m.emission * colour.seen) * texture_average(scene, m.emission_texture);
+        picker.brightest = std::max(picker.brightest, largest(m.emission * colour.seen));
         g.first_light = static_cast<std::uint32_t>(packed.lights.size());
         const std::size_t geometry = static_cast<std::size_t>(&g - packed.geometries.data());
         for (std::size_t i = g.first_triangle;
@@ -88,8 +91,9 @@ void add_triangles(const Scene& scene, Picker& picker) {
             copy(light.edge1, e1);
             copy(light.edge2, e2);
             copy(light.axis, area > 0 ? glm::normalize(glm::cross(e1, e2)) : dvec3(0, 1, 0));
-            copy(light.colour, dvec3(m.emission));
-            light.flags = m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u;
+            copy(light.colour, dvec3(m.emission * colour.tint));
+            light.flags = (m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u) | colour.index
+                                                                              << LIGHT_SPECTRUM_SHIFT;
             picker.add(light, in_tree[i] ? pi * area * radiance * (m.double_sided ? 2.0 : 1.0) : 0.0);
         }
     }
@@ -101,9 +105,11 @@ void add_punctual(const Scene& scene, Picker& picker) {
         dev::Light light{};
         copy(light.position, l.position - picker.packed.origin);
         copy(light.axis, l.direction);
-        copy(light.colour, dvec3(l.colour));
+        const LightColour colour = light_colour(picker.packed, l.spectrum);
+        copy(light.colour, dvec3(l.colour * colour.tint));
+        light.flags = colour.index << LIGHT_SPECTRUM_SHIFT;
         light.range = l.range;
-        const double intensity = average(l.colour);
+        const double intensity = average(l.colour * colour.seen);
         if (l.type == PunctualLight::Type::directional) {
             light.type = LIGHT_DIRECTIONAL;
             picker.brightest = std::max(picker.brightest, intensity / pi);

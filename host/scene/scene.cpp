@@ -35,6 +35,12 @@ void put(Hash& h, const std::optional<Dispersion>& d) {
     h.add(d->b.data(), sizeof d->b).add(d->c.data(), sizeof d->c);
 }
 
+void put(Hash& h, const std::optional<LightSpectrum>& s) {
+    if (!s) return;  // as with dispersion
+    h.add_value(int(s->law)).add_value(s->temperature).add_value(s->lines.size());
+    for (const LightSpectrum::Line& line : s->lines) h.add_value(line.nanometres).add_value(line.power);
+}
+
 template <class... Members>
 void put_all(Hash& h, const Members&... members) {
     (put(h, members), ...);
@@ -45,7 +51,8 @@ void put(Hash& h, const Material& m) {
             m.alpha_cutoff, std::uint8_t(m.double_sided), std::uint8_t(m.unlit), m.ior, m.specular,
             m.specular_colour, m.transmission, m.thickness, m.attenuation_colour, m.attenuation_distance,
             m.base_colour_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
-            m.specular_texture, m.specular_colour_texture, m.transmission_texture, m.dispersion);
+            m.specular_texture, m.specular_colour_texture, m.transmission_texture, m.dispersion,
+            m.emission_spectrum);
     if (m.priority != 0) put(h, m.priority);
 }
 
@@ -92,7 +99,8 @@ std::string hash_of(const Scene& scene) {
     for (const MeshInstance& i : scene.instances) put_all(h, i.mesh, i.to_world);
     h.add_value(scene.lights.size());
     for (const PunctualLight& l : scene.lights)
-        put_all(h, int(l.type), l.position, l.direction, l.colour, l.range, l.inner_cone, l.outer_cone);
+        put_all(h, int(l.type), l.position, l.direction, l.colour, l.range, l.inner_cone, l.outer_cone,
+                l.spectrum);
     h.add_value(scene.cameras.size());
     for (const SceneCamera& c : scene.cameras)
         put_all(h, c.name, std::uint8_t(c.orthographic), c.yfov, c.aspect, c.magnification, c.to_world);

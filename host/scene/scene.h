@@ -11,6 +11,7 @@
 
 #include "base/math.h"
 #include "scene/glass.h"
+#include "scene/light_spectrum.h"
 
 namespace triad {
 
@@ -73,6 +74,7 @@ struct Material {
     std::optional<TextureUse> specular_texture;         ///< A
     std::optional<TextureUse> specular_colour_texture;  ///< sRGB
     std::optional<TextureUse> transmission_texture;     ///< R
+    std::optional<LightSpectrum> emission_spectrum;     ///< of which `emission` is the tint; none: D65
 };
 
 /// Triangles with one material. Optional attributes are empty or as long as positions.
@@ -107,6 +109,7 @@ struct PunctualLight {
     vec3 colour{1.0f};
     float range = 0.0f;  ///< 0: no limit
     float inner_cone = 0.0f, outer_cone = 0.7853981634f;
+    std::optional<LightSpectrum> spectrum;  ///< of which `colour` is the tint; none: D65
 };
 
 /// A glTF camera, placed: looks along -z of to_world, y up.

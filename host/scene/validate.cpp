@@ -69,6 +69,8 @@ void check_material(const Scene& scene, const Material& m, const std::string& wh
             "has an index of refraction below 1");
     require(!m.dispersion || (m.ior >= 1.0f && m.dispersion->is_sane()), what,
             "has a dispersion that gives an index of refraction outside 1 to 10 at some visible wavelength");
+    require(!m.emission_spectrum || m.emission_spectrum->is_sane(), what,
+            "has a spectrum without visible power, or of an absurd temperature");
     require(m.priority <= most_priority, what, "has a priority above 255");
     require(in_unit(m.specular) && at_least_zero(m.specular_colour), what,
             "has a specular factor out of range");
@@ -144,6 +146,8 @@ void check_placed(const Scene& scene) {
         require(
             light.inner_cone >= 0.0f && light.inner_cone <= light.outer_cone && light.outer_cone <= 1.5708f,
             what, "has cone angles out of order");
+        require(!light.spectrum || light.spectrum->is_sane(), what,
+                "has a spectrum without visible power, or of an absurd temperature");
     }
     for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
         const SceneCamera& camera = scene.cameras[i];

@@ -35,6 +35,43 @@ TRIAD_FUNCTION float spectrum_sample(global const Spectrum* s, float u, float3* 
     return nanometres;
 }
 
+/* Of a wavelength in light of spectrum `which`, over D65 of the same luminance. */
+TRIAD_FUNCTION float spectrum_of_light(global const Spectrum* s, uint which, float nanometres) {
+#if TRIAD_LIGHT_SPECTRA
+    if (which == 0u) return 1.0f;
+    const float x = clamp(nanometres - SPECTRUM_FIRST, 0.0f, (float)(LIGHT_SPECTRUM_ROWS - 1));
+    const uint row = min(convert_uint(x), LIGHT_SPECTRUM_ROWS - 2u);
+    const float a = s[which].light[row], b = s[which].light[row + 1u];
+    return fma(x - convert_float(row), b - a, a);
+#else
+    (void)s, (void)which, (void)nanometres;
+    return 1.0f;
+#endif
+}
+
+/* Light of spectrum `which`, all wavelengths together. */
+TRIAD_FUNCTION float3 spectrum_colour_of_light(global const Spectrum* s, uint which) {
+#if TRIAD_LIGHT_SPECTRA
+    if (which != 0u) return (float3)(s[which].colour[0], s[which].colour[1], s[which].colour[2]);
+#else
+    (void)s, (void)which;
+#endif
+    return (float3)(1.0f);
+}
+
+/* spectrum_sample() by the spectrum of the light that a photon comes from; the mean of *filter is the light's
+ * colour. */
+TRIAD_FUNCTION float spectrum_sample_light(global const Spectrum* s, uint which, float u, float3* filter) {
+#if TRIAD_LIGHT_SPECTRA
+    const float nanometres = spectrum_sample(s + which, u, filter);
+    *filter *= spectrum_of_light(s, which, nanometres);
+    return nanometres;
+#else
+    (void)which;
+    return spectrum_sample(s, u, filter);
+#endif
+}
+
 /* What the primaries of Rec.709 reflect of a wavelength; white reflects all of it. */
 TRIAD_FUNCTION float3 spectrum_basis(global const Spectrum* s, float nanometres) {
     float t;

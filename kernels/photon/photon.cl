@@ -124,15 +124,16 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
 #endif
     Bodies bodies = (uint4)(TRIAD_NONE);
     float wavelength = 0.0f; /* nm; 0: all of them together */
-    float3 filter = (float3)(1.0f);
+    float3 filter = spectrum_colour_of_light(scene.spectrum, source.spectrum);
 #if TRIAD_DISPERSION
     if (frame->wavelength_from_camera)
-        wavelength = spectrum_sample(scene.spectrum, sampler_2d(&sampler, 2u).x, &filter);
+        wavelength =
+            spectrum_sample_light(scene.spectrum, source.spectrum, sampler_2d(&sampler, 2u).x, &filter);
 #endif
     float length = 0.0f; /* of the way, for the range of punctual lights */
     Ray ray = source.ray;
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]);
-    for (uint edge = 1u; math_max3(source.power) > 0.0f; ++edge) {
+    for (uint edge = 1u; max_abs3(source.power) > 0.0f; ++edge) {
         /* the camera sees path edge + 1 of a path with max_depth edges at most */
         if (frame->max_depth != 0u && edge + 1u > frame->max_depth) break;
         const Hit hit = traverse_closest(&traversal, ray);
@@ -163,7 +164,8 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
         /* the first surface that tells wavelengths apart: from here on the photon has one */
         if (wavelength == 0.0f && solid != TRIAD_NONE && s.transmission > 0.0f && s.metallic < 1.0f &&
             (bodies_disperse(&scene, bodies) || bodies_disperse(&scene, beyond)))
-            wavelength = spectrum_sample(scene.spectrum, sampler_2d(&sampler, 2u).x, &filter);
+            wavelength =
+                spectrum_sample_light(scene.spectrum, source.spectrum, sampler_2d(&sampler, 2u).x, &filter);
 #endif
         u = sampler_block(&sampler, edge);
         if (edge > 1u) {

@@ -12,8 +12,9 @@
 
 typedef struct PhotonSource {
     Ray ray;
-    float3 power; /* flux in W over the density of everything that was drawn; black: no photon */
-    float range;  /* punctual light: where it ends; 0: nowhere */
+    float3 power;  /* flux in W over the density of everything that was drawn; black: no photon */
+    float range;   /* punctual light: where it ends; 0: nowhere */
+    uint spectrum; /* of the light: power is its tint, still to be multiplied by what spectrum.h says */
 } PhotonSource;
 
 /* The cone of directions from p that hit a caster: squared sine of its half angle (more than 1: p is inside,
@@ -103,6 +104,7 @@ TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonF
     float within, probability;
     const uint index = cdf_find(&f->lights, light_tree, u->x.s3, &within, &probability);
     const Light light = scene->lights[index];
+    s.spectrum = light.flags >> LIGHT_SPECTRUM_SHIFT;
     const float pick = random_float(u->y.s3);
     const float2 on_light = (float2)(random_float(u->x.s0), random_float(u->y.s0));
     const float2 aim = (float2)(random_float(u->x.s1), random_float(u->y.s1));

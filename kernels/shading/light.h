@@ -15,7 +15,8 @@ typedef struct LightSample {
     float inverse_pdf; /* of the solid angle, the pick included; 0: a delta light, which no other sampling
                           finds */
     int distant;
-    float2 uv; /* of a map: weight and inverse_pdf are still to be looked up, by light_complete() */
+    uint flags; /* of the Light: its weight is of this spectrum */
+    float2 uv;  /* of a map: weight and inverse_pdf are still to be looked up, by light_complete() */
 } LightSample;
 
 /* 1 / density in solid angle, seen from a point at `distance2` (squared), with which light_sample draws a
@@ -111,6 +112,7 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, float3 p, uint pick, uint2 u
     float unused;
     const uint index = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
     const Light light = scene->lights[index];
+    s->flags = light.flags;
 #if TRIAD_TRIANGLE_LIGHTS
     if (light.type == LIGHT_TRIANGLE)
         return light_sample_triangle(scene, &light, p, (float2)(random_float(u.x), random_float(u.y)), s);

@@ -145,8 +145,10 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                     power_heuristic(1.0f / (pdf * light_triangle_inverse_pdf(&light, 1.0f / (hit.t * hit.t),
                                                                              math_dot(ng, wo))));
             }
-            const Colour found =
-                throughput * path_colour(&colours, surface_emission(scene, material, s.uv0, s.uv1)) * weight;
+            const Colour found = throughput *
+                                 path_light(scene, &colours, found_light->flags,
+                                            surface_emission(scene, material, s.uv0, s.uv1)) *
+                                 weight;
             radiance += found;
             RECORD(record_found(&tally->recorder, edge, path_found(&colours, found));)
         }
@@ -210,7 +212,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                         direct *= path_transmittance(&colours, scene->materials + around_light,
                                                      math_length(light.target - s.position));
 #endif
-                    if (colour_max(direct * path_colour(&colours, light.weight)) > 0.0f) {
+                    /* the colour of a light with a spectrum is signed */
+                    if (colour_max(fabs(direct * path_light(scene, &colours, light.flags, light.weight))) >
+                        0.0f) {
                         const float3 away = side > 0.0f ? ng : -ng;
 #if TRIAD_ALPHA_TEST
                         coverage.ray += 1u;
@@ -219,7 +223,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                                                          : vertex_spawn_to(&s, away, &hit, light.target);
                         ++tally->rays;
                         if (!traverse_occluded(&traversal, shadow) && light_complete(scene, &light)) {
-                            direct *= path_colour(&colours, light.weight) *
+                            direct *= path_light(scene, &colours, light.flags, light.weight) *
                                       power_heuristic(bsdf_pdf * light.inverse_pdf);
                             radiance += direct;
                             RECORD(record_direct(&tally->recorder, edge, path_found(&colours, direct), scene,

@@ -142,6 +142,28 @@ TRIAD_FUNCTION float3 path_rgb(const PathColour* c, float3 radiance) { return pa
 
 #endif
 
+/* The light of a Light with these flags, whose colour is `rgb`. */
+TRIAD_FUNCTION Colour path_light(const Scene* scene, const PathColour* c, uint flags, float3 rgb) {
+#if TRIAD_LIGHT_SPECTRA
+    const uint which = flags >> LIGHT_SPECTRUM_SHIFT;
+    if (which != 0u) {
+#if TRIAD_HERO
+        float wavelengths[4], light[4];
+        vstore4(c->wavelengths, 0, wavelengths);
+        for (uint i = 0u; i < 4u; ++i) light[i] = spectrum_of_light(scene->spectrum, which, wavelengths[i]);
+        return path_colour(c, rgb) * vload4(0, light);
+#else
+        return rgb * (c->wavelength > 0.0f
+                          ? (float3)(spectrum_of_light(scene->spectrum, which, c->wavelength))
+                          : spectrum_colour_of_light(scene->spectrum, which));
+#endif
+    }
+#else
+    (void)scene, (void)flags;
+#endif
+    return path_colour(c, rgb);
+}
+
 #if TRIAD_TRANSMISSION
 /* What a body lets through over a distance. */
 TRIAD_FUNCTION Colour path_transmittance(const PathColour* c, global const Material* body, float distance) {

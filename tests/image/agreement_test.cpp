@@ -93,6 +93,12 @@ Scene grey(Scene scene) {
     return scene;
 }
 
+std::vector<Batch> brighter(std::vector<Batch> batches_of_it, float factor) {
+    for (Batch& b : batches_of_it)
+        for (float& value : b.rgb) value *= factor;
+    return batches_of_it;
+}
+
 TEST(Agreement, a_dispersion_of_nothing_shows_the_same_picture) {
     for (const float roughness : {0.0f, 0.4f}) {
         const Dispersion nothing{Dispersion::Law::cauchy, 0, {1.5}, {}};
@@ -117,10 +123,45 @@ TEST(Agreement, four_wavelengths_split_as_one_does) {
         const auto one = render(room, 1500);
         const Agreement found = compare_pictures(one, render(room, 1600, 1, 0, false, 0.8, Spectral::full));
         EXPECT_TRUE(found.agree) << "roughness " << roughness << ": " << found.sentence();
+        EXPECT_FALSE(
+            compare_pictures(one, brighter(render(room, 1600, 1, 0, false, 0.8, Spectral::full), 1.02f))
+                .agree)
+            << "roughness " << roughness << ": the test would not see 2 %";
         if (roughness == 0.0f) continue;  // a clear ball hides its dispersion in this noise
         const Agreement none = compare_pictures(one, render(room, 1700, 1, 0, false, 0.8, Spectral::off));
         EXPECT_FALSE(none.agree) << "the test would not see dispersion";
     }
+}
+
+/// The room under a lamp of this spectrum; its sky stays D65.
+Scene under(const LightSpectrum& spectrum, Scene room) {
+    for (Material& m : room.materials)
+        if (m.emission != vec3(0.0f)) m.emission_spectrum = spectrum;
+    return room;
+}
+
+const LightSpectrum candle{LightSpectrum::Law::blackbody, 1900, {}};
+const LightSpectrum three_lines{LightSpectrum::Law::lines, 0, {{450, 1}, {532.4, 1}, {650, 3}}};
+
+TEST(Agreement, spectra_of_lights_show_a_grey_room_alike_in_every_scheme) {
+    const Dispersion nothing{Dispersion::Law::cauchy, 0, {1.5}, {}};
+    for (const LightSpectrum& spectrum : {candle, three_lines}) {
+        const Scene room = under(spectrum, grey(glass_room(nothing, 0.4f)));
+        const auto off = render(room, 1800, 1, 0, false, 0.8, Spectral::off);
+        EXPECT_FALSE(compare_pictures(off, render(grey(glass_room(nothing, 0.4f)), 1900)).agree);
+        for (const Spectral scheme : {Spectral::automatic, Spectral::full}) {
+            const Agreement found = compare_pictures(off, render(room, 2000, 1, 0, false, 0.8, scheme));
+            EXPECT_TRUE(found.agree) << int(scheme) << ": " << found.sentence();
+        }
+    }
+}
+
+TEST(Agreement, four_wavelengths_split_lines_as_one_does) {
+    const Dispersion strong{Dispersion::Law::cauchy, 0, {1.05, 0.17}, {}};
+    const Scene room = under(three_lines, grey(glass_room(strong, 0.4f)));
+    const auto one = render(room, 2100);
+    const Agreement found = compare_pictures(one, render(room, 2200, 1, 0, false, 0.8, Spectral::full));
+    EXPECT_TRUE(found.agree) << found.sentence();
 }
 
 TEST(Agreement, roulette_changes_no_mean) {
