@@ -16,6 +16,7 @@
 #include "base/text.h"
 #include "kernels/types.h"
 #include "measure/perceived_noise.h"
+#include "measure/perceived_sets.h"
 #include "render/renderer.h"
 
 namespace triad {
@@ -116,11 +117,12 @@ Exit run(RenderOptions o) {
     }
     const InterruptGuard guard;
     RenderGoal goal = o.goal();
-    if (const auto& panel = o.style.reconstruction.panel)
-        goal.perceived_noise = [noise = PerceivedNoise(device, panel->panel, panel->ppd,
-                                                       display_settings(o.style, false))](const Film& film) {
-            return noise.of(film);
-        };
+    if (const auto& panel = o.style.reconstruction.panel) {
+        const DisplaySettings display = display_settings(o.style, false);
+        goal.perceived_noise = [noise = PerceivedNoise(device, panel->panel, panel->ppd, display)](
+                                   const Film& film) { return noise.of(film); };
+        if (goal.error == 0) goal.set_errors = perceived_sets(device, *panel, display);
+    }
     RenderResult result;
     Progress progress;
     {

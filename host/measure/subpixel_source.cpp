@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "measure/perceived_sets.h"
 
 namespace triad {
 namespace {
@@ -83,6 +84,11 @@ class RenderedSource : public SubpixelSource {
         renderer->restart(seed);
         RenderGoal goal;
         goal.samples = {0, spp}, goal.adaptive = method.adaptive, goal.follow = false;
+        if (method.adaptive && method.how.panel) {
+            DisplaySettings shown = display();
+            apply(method.how, shown);
+            goal.set_errors = perceived_sets(device_, *method.how.panel, shown);
+        }
         const RenderResult result = renderer->render_until(goal, [](const Progress&) { return true; });
         return films_[key] = {renderer->film(), result.seconds};
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/parallel_for.h"
@@ -186,16 +187,22 @@ PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
 }
 
 double perceived_difference(const Panel& panel, const RgbImage& difference, const PerceivedChoice& choice) {
+    const std::vector<float> map = perceived_difference_map(panel, difference, choice);
+    return std::sqrt(std::accumulate(map.begin(), map.end(), 0.0) / double(map.size()));
+}
+
+std::vector<float> perceived_difference_map(const Panel& panel, const RgbImage& difference,
+                                            const PerceivedChoice& choice) {
     const PerceivedMetric::State s(panel, difference, 1, choice);
     const dmat3 axes = linear_lab_of_xyz(s.white);
-    double sum = 0;
+    std::vector<float> map(std::size_t(s.width) * s.height);
     for (unsigned y = 0; y < s.height; ++y)
         for (unsigned x = 0; x < s.width; ++x) {
             const std::size_t i = std::size_t(y + s.margin_y) * s.fourier.width() + x + s.margin_x;
             const dvec3 d = axes * dvec3(s.wanted[0][i], s.wanted[1][i], s.wanted[2][i]);
-            sum += glm::dot(d, d);
+            map[std::size_t(y) * s.width + x] = float(glm::dot(d, d));
         }
-    return std::sqrt(sum / (double(s.width) * s.height));
+    return map;
 }
 
 unsigned samples_per_pixel(const RgbImage& drives, const RgbImage& reference) {

@@ -49,6 +49,10 @@ class PerceivedMetric {
 double perceived_difference(const Panel& panel, const RgbImage& difference,
                             const PerceivedChoice& choice = {});
 
+/// The same, squared, pixel by pixel.
+std::vector<float> perceived_difference_map(const Panel& panel, const RgbImage& difference,
+                                            const PerceivedChoice& choice = {});
+
 /// Samples per pixel of a reference to a picture of drives: a whole number, the same along both axes. Throws
 /// Error(comparison) otherwise.
 unsigned samples_per_pixel(const RgbImage& drives, const RgbImage& reference);

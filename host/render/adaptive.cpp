@@ -13,7 +13,7 @@ namespace {
 constexpr double least_share = 0.25;
 /// No set grows by more than this in a round: an estimate from few samples must not draw all of them.
 constexpr double most_growth = 4.0;
-/// Weights of a tile, of its neighbours by an edge, and by a corner, when a set's noise is estimated.
+/// Weights of a tile, of its neighbours by an edge, and by a corner, when a set's error is estimated.
 constexpr double weights[3] = {4.0, 1.0, 0.5};
 
 struct Tiles {
@@ -22,23 +22,10 @@ struct Tiles {
         : across((width + FILM_TILE - 1) / FILM_TILE), down((height + FILM_TILE - 1) / FILM_TILE) {}
 };
 
-/// Per set: sum over its pixels of the relative variance of a single sample.
-std::vector<double> noise_of_sets(const Film& film, std::span<const float> errors, const SetSamples& have) {
-    const Tiles tiles(film.width, film.height);
-    std::vector<double> noise(have.size());
-    for (std::size_t y = 0; y < film.height; ++y)
-        for (std::size_t x = 0; x < film.width; ++x)
-            noise[2 * (y / FILM_TILE * tiles.across + x / FILM_TILE) + ((x ^ y) & 1)] +=
-                errors[y * film.width + x];
-    for (std::size_t i = 0; i < noise.size(); ++i) noise[i] *= have[i];
-    return noise;
-}
-
-/// Per set: the mean noise of a pixel as the other sets of its tile and of the tiles around show it.
-std::vector<double> noise_seen_by_others(const Film& film, const std::vector<double>& noise,
-                                         const std::vector<std::uint32_t>& pixels) {
-    const Tiles tiles(film.width, film.height);
-    std::vector<double> seen(noise.size());
+/// Per set: the mean s of a pixel as the other sets of its tile and of the tiles around show it.
+std::vector<double> seen_by_others(const Tiles& tiles, const SetErrors& s,
+                                   const std::vector<std::uint32_t>& pixels) {
+    std::vector<double> seen(s.size());
     for (std::size_t y = 0; y < tiles.down; ++y)
         for (std::size_t x = 0; x < tiles.across; ++x)
             for (std::size_t set = 0; set < 2; ++set) {
@@ -47,7 +34,7 @@ std::vector<double> noise_seen_by_others(const Film& film, const std::vector<dou
                     for (std::size_t u = x - (x > 0); u < std::min(x + 2, tiles.across); ++u) {
                         const std::size_t other = 2 * (v * tiles.across + u) + (1 - set);
                         const double w = weights[(v != y) + (u != x)];
-                        sum += w * noise[other], weight += w * pixels[other];
+                        sum += w * s[other], weight += w * pixels[other];
                     }
                 seen[2 * (y * tiles.across + x) + set] = weight > 0 ? sum / weight : 0.0;
             }
@@ -65,13 +52,26 @@ std::vector<std::uint32_t> set_pixels(unsigned width, unsigned height) {
     return pixels;
 }
 
-SetSamples distribute(const Film& film, std::span<const float> errors, const SetSamples& have, double mean,
-                      unsigned step) {
-    const std::vector<std::uint32_t> pixels = set_pixels(film.width, film.height);
-    const std::vector<double> noise = noise_seen_by_others(film, noise_of_sets(film, errors, have), pixels);
+SetErrors relmse_of_sets(const Film& film, std::span<const float> errors, const SetSamples& have) {
+    if (errors.empty()) return {};
+    const Tiles tiles(film.width, film.height);
+    SetErrors result(have.size());
+    for (std::size_t y = 0; y < film.height; ++y)
+        for (std::size_t x = 0; x < film.width; ++x)
+            result[2 * (y / FILM_TILE * tiles.across + x / FILM_TILE) + ((x ^ y) & 1)] +=
+                errors[y * film.width + x];
+    for (std::size_t i = 0; i < have.size(); ++i) result[i] *= have[i];
+    return result;
+}
+
+SetSamples distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
+                      double mean, unsigned step) {
+    const std::vector<std::uint32_t> pixels = set_pixels(width, height);
+    std::vector<double> share = seen_by_others(Tiles(width, height), errors, pixels);
+    for (double& s : share) s = std::sqrt(s);
     const auto wanted = [&](std::size_t i, double scale) {
         const double least = std::max(double(have[i]), least_share * mean);
-        return std::clamp(scale * std::sqrt(noise[i]), least, std::max(least, most_growth * have[i]));
+        return std::clamp(scale * share[i], least, std::max(least, most_growth * have[i]));
     };
     // Each colour of the chessboard has its own budget: shared, a set's own samples would decide by way of
     // the sum.
@@ -102,7 +102,7 @@ SetSamples distribute(const Film& film, std::span<const float> errors, const Set
     if (result == have) {  // less than a step for every set: the noisiest gets one
         std::size_t noisiest = 0;
         for (std::size_t i = 1; i < have.size(); ++i)
-            if (pixels[i] > 0 && noise[i] > noise[noisiest]) noisiest = i;
+            if (pixels[i] > 0 && share[i] > share[noisiest]) noisiest = i;
         result[noisiest] += step;
     }
     return result;

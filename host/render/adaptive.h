@@ -21,11 +21,18 @@ using SetSamples = std::vector<std::uint32_t>;
 /// Pixels of each set: less than half a tile at the film's right and bottom edge, possibly none.
 std::vector<std::uint32_t> set_pixels(unsigned width, unsigned height);
 
-/// What each set should hold for the picture's least estimated relMSE at `mean` samples per pixel, given that
-/// it holds `have`. `errors`: error_map(film, Neighbours::own_set). Gives whole multiples of `step` samples,
-/// never less than `have`, and something to some set. Since the error of a set with n samples is s / n, the
-/// sum over sets of s / n at a given sum of n is least for n proportional to sqrt(s).
-SetSamples distribute(const Film& film, std::span<const float> errors, const SetSamples& have, double mean,
-                      unsigned step);
+/// s of each set, summed over its pixels, from its own samples alone: with n samples per pixel it adds s / n
+/// to the picture's error. Empty: not known yet.
+using SetErrors = std::vector<double>;
+
+/// Of the relMSE. `errors`: error_map(film, Neighbours::own_set), which may be empty too.
+SetErrors relmse_of_sets(const Film& film, std::span<const float> errors, const SetSamples& have);
+
+/// What each set of a picture of this size should hold for the least error at `mean` samples per pixel, given
+/// that it holds `have`. Gives whole multiples of `step` samples, never less than `have`, and something to
+/// some set. The sum over sets of s / n at a given sum of n is least for n proportional to sqrt(s); a set's s
+/// is what the others around show, so that no set decides for itself.
+SetSamples distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
+                      double mean, unsigned step);
 
 }  // namespace triad

@@ -39,6 +39,13 @@ class RenderLoop {
 
     RenderResult run() {
         while (const auto end = schedule_.next_round(samples(), seconds())) {
+            if (goal_.adaptive && goal_.set_errors && total_ == 0) {
+                reach(SetSamples(have_.size(), std::uint32_t(s_.film.bins())));
+                s_.load_film_arrays();
+                look();
+            } else if (goal_.adaptive && total_ > 0) {
+                look();
+            }
             reach(wanted_at(*end));
             if (interrupted_) break;
             if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
@@ -63,7 +70,7 @@ class RenderLoop {
     SetSamples have_;
     const std::vector<SampleRange> ranges_before_;
     const double samples_before_;
-    std::vector<float> own_set_errors_;
+    SetErrors set_errors_;     ///< the latest
     std::uint64_t total_ = 0;  ///< samples over all pixels
     bool interrupted_ = false;
     const RenderClock::time_point start_ = RenderClock::now();
@@ -91,10 +98,11 @@ class RenderLoop {
     }
 
     /// What each set is to hold at the end of a round. The first samples are taken evenly: there is nothing
-    /// to decide by. Adaptive sampling gives both halves of every bin the same.
+    /// to decide by. Adaptive sampling for the relMSE gives both halves of every bin the same.
     SetSamples wanted_at(double end) const {
-        if (!own_set_errors_.empty())
-            return distribute(s_.film, own_set_errors_, have_, end, unsigned(2 * s_.film.bins()));
+        if (!set_errors_.empty())
+            return distribute(s_.film.width, s_.film.height, set_errors_, have_, end,
+                              unsigned((goal_.set_errors ? 1 : 2) * s_.film.bins()));
         return SetSamples(have_.size(), std::uint32_t(std::llround(end)));
     }
 
@@ -203,11 +211,25 @@ class RenderLoop {
         return n;
     }
 
+    /// The film says what every pixel has, while estimates are made of it.
+    void name_ranges() {
+        s_.film.ranges = ranges_before_;
+        s_.film.ranges.push_back({goal_.samples.begin, goal_.samples.begin + least()});
+    }
+
+    /// What the film that was last read says about where samples should go.
+    void look() {
+        name_ranges();
+        set_errors_ = goal_.set_errors
+                          ? goal_.set_errors(s_.film, have_)
+                          : relmse_of_sets(s_.film, error_map(s_.film, Neighbours::own_set), have_);
+        s_.film.ranges = ranges_before_;
+    }
+
     /// Estimates the error; at the end of a round also for the decisions.
     void estimate(bool decides) {
         const double began = seconds();
-        s_.film.ranges = ranges_before_;
-        s_.film.ranges.push_back({goal_.samples.begin, goal_.samples.begin + least()});
+        name_ranges();
         s_.load_film_arrays();
         rays_ = s_.film.counters[COUNTER_RAYS];
         relmse_ = estimated_relmse(s_.film);
@@ -216,7 +238,6 @@ class RenderLoop {
             trend_.add(samples_before_ + samples(), relmse_);
             if (decides) schedule_.add_estimate(samples(), relmse_);
         }
-        if (decides && goal_.adaptive) own_set_errors_ = error_map(s_.film, Neighbours::own_set);
         s_.film.ranges = ranges_before_;
         // Estimating reads the whole film: spend a small share of the time on it.
         next_estimate_ = seconds() + std::max(1.0, 20 * (seconds() - began));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/adaptive.h"
 #include "scene/film.h"
 
 namespace triad {
@@ -19,6 +20,9 @@ struct RenderGoal {
     /// not known yet.
     std::function<std::optional<double>(const Film&)> perceived_noise;
     bool follow = true;  ///< estimate the error now and then for reports, also where nothing is decided by it
+    /// What adaptive sampling lowers; empty: the relMSE. Shown the film with one sample in every bin, with
+    /// two, and at the end of every round; each set holds so many.
+    std::function<SetErrors(const Film&, const SetSamples&)> set_errors;
 };
 
 enum class Stop { samples, error, time, interrupt };

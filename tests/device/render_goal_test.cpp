@@ -1,7 +1,11 @@
 // Renders that end at an error or a time: their samples are those of every other render.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "analytic/analytic_scene.h"
+#include "base/parallel_for.h"
+#include "measure/perceived_sets.h"
 #include "same_film.h"
 
 namespace triad {
@@ -30,22 +34,38 @@ void expect_first_samples(const RenderSettings& settings, const Film& film) {
     }
 }
 
-TEST(RenderGoal, an_error_is_reached_by_the_same_samples_on_every_work_group_size_and_thread) {
+/// Renders on every size of work-group and on one thread are equal. `goal_on`: for a device.
+void expect_same_everywhere(const std::function<RenderGoal(Device&)>& goal_on) {
     Device& device = test_device();
     const std::size_t before = device.preferred_local();
-    const RenderGoal goal{.samples = {0, 10000}, .error = 0.1, .adaptive = true};
-    const Film whole = render_to(device, analytic::varied_settings(), goal);
+    const Film whole = render_to(device, analytic::varied_settings(), goal_on(device));
     EXPECT_FALSE(whole.is_even());
     for (std::size_t local : {1, 8, 64}) {
         device.set_preferred_local(local);
-        expect_same_bytes(whole, render_to(device, analytic::varied_settings(), goal),
+        expect_same_bytes(whole, render_to(device, analytic::varied_settings(), goal_on(device)),
                           "local size " + std::to_string(local));
     }
     device.set_preferred_local(before);
     if (device.info().type != "cpu") return;
     const char* selector = std::getenv("TRIAD_TEST_DEVICE");
     Device one = Device::open({.selector = selector ? selector : "", .threads = 1});
-    expect_same_bytes(whole, render_to(one, analytic::varied_settings(), goal), "one thread");
+    set_host_threads(1);
+    expect_same_bytes(whole, render_to(one, analytic::varied_settings(), goal_on(one)), "one thread");
+    set_host_threads(0);
+}
+
+TEST(RenderGoal, an_error_is_reached_by_the_same_samples_on_every_work_group_size_and_thread) {
+    expect_same_everywhere([](Device&) {
+        return RenderGoal{.samples = {0, 10000}, .error = 0.1, .adaptive = true};
+    });
+}
+
+TEST(RenderGoal, perceived_error_sends_samples_alike_on_every_work_group_size_and_thread) {
+    expect_same_everywhere([](Device& device) {
+        RenderGoal goal{.samples = {0, 40}, .adaptive = true};
+        goal.set_errors = perceived_sets(device, {*builtin_panel("rgb"), 45}, {});
+        return goal;
+    });
 }
 
 TEST(RenderGoal, a_pixel_with_n_samples_holds_the_first_n_however_it_came_to_them) {

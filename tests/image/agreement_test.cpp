@@ -4,6 +4,7 @@
 
 #include "kernels/types.h"
 #include "lit_room.h"
+#include "measure/perceived_sets.h"
 #include "measure/statistics.h"
 
 namespace triad::analytic {
@@ -13,7 +14,7 @@ constexpr unsigned size = 48, batches = 12, spp = 16;
 
 std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins = 1, unsigned max_depth = 0,
                           bool adaptive = false, double roulette = 0.8,
-                          Spectral spectral = Spectral::automatic) {
+                          Spectral spectral = Spectral::automatic, bool for_a_panel = false) {
     validate(scene);
     std::vector<Batch> result;
     for (unsigned k = 0; k < batches; ++k) {
@@ -26,8 +27,9 @@ std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins =
         settings.spectral = spectral;
         settings.view = room_view();
         Renderer renderer(test_device(), scene, settings);
-        renderer.render_until({.samples = {0, spp}, .adaptive = adaptive},
-                              [](const Progress&) { return true; });
+        RenderGoal goal{.samples = {0, spp}, .adaptive = adaptive};
+        if (for_a_panel) goal.set_errors = perceived_sets(test_device(), {*builtin_panel("rgb"), 45}, {});
+        renderer.render_until(goal, [](const Progress&) { return true; });
         const Film film = renderer.film();
         EXPECT_NE(film.is_even(), adaptive);
         EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);
@@ -170,6 +172,10 @@ TEST(Agreement, roulette_changes_no_mean) {
 
 TEST(Agreement, adaptive_sampling_from_four_samples_on_changes_no_mean) {
     expect_agreement(render(lit_room(1, false), 800, 1, 0, true));
+}
+
+TEST(Agreement, samples_by_perceived_error_change_no_mean) {
+    expect_agreement(render(lit_room(1, false), 1800, 1, 0, true, 0.8, Spectral::automatic, true));
 }
 
 TEST(Agreement, one_tile_that_is_five_percent_brighter_is_found) {

@@ -31,6 +31,11 @@ double mean_of(const Film& film, const SetSamples& samples) {
     return sum / double(film.pixels());
 }
 
+SetSamples distribute_by(const Film& film, const std::vector<float>& errors, const SetSamples& have,
+                         double mean, unsigned step) {
+    return distribute(film.width, film.height, relmse_of_sets(film, errors, have), have, mean, step);
+}
+
 /// A picture that is built up sample by sample: a pixel is bright with a probability, rarely on the left, and
 /// less rarely on the right.
 class Fireflies {
@@ -71,7 +76,7 @@ class Fireflies {
             std::vector<float> errors = error_map(film_, Neighbours::own_set);
             if (own)  // the neighbour's place is in the other set of the same tile
                 for (std::size_t p = 0; p < errors.size(); p += 2) std::swap(errors[p], errors[p + 1]);
-            reach(distribute(film_, errors, have_, mean, 2));
+            reach(distribute(width, height, relmse_of_sets(film_, errors, have_), have_, mean, 2));
         }
     }
 
@@ -124,7 +129,7 @@ TEST(Adaptive, samples_go_as_the_square_root_of_the_noise) {
     const Film film = sized(128, 64);
     std::vector<float> errors(film.pixels());
     for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p % 128 < 64 ? 1.0f : 9.0f;
-    const SetSamples have(2 * 16 * 8, 16), given = distribute(film, errors, have, 40, 2);
+    const SetSamples have(2 * 16 * 8, 16), given = distribute_by(film, errors, have, 40, 2);
     EXPECT_NEAR(mean_of(film, given), 40, 0.01);
     EXPECT_NEAR(given[2 * (3 * 16 + 2)], 20, 2);  // far from the border, 1 : 3
     EXPECT_NEAR(given[2 * (3 * 16 + 13)], 60, 2);
@@ -137,7 +142,7 @@ TEST(Adaptive, no_set_loses_starves_or_takes_all) {
     SetSamples have(2 * 8 * 5, 8);
     have[7] = 50;
     const auto pixels = set_pixels(61, 37);
-    const SetSamples given = distribute(film, errors, have, 40, 6);
+    const SetSamples given = distribute_by(film, errors, have, 40, 6);
     for (std::size_t i = 0; i < have.size(); ++i) {
         EXPECT_GE(given[i], have[i]);
         EXPECT_EQ((given[i] - have[i]) % 6, 0u);
@@ -149,7 +154,7 @@ TEST(Adaptive, no_set_loses_starves_or_takes_all) {
 TEST(Adaptive, something_is_given_even_when_it_is_less_than_a_step) {
     const Film film = sized(9, 1);  // the second tile has one pixel: its other set has none
     const std::vector<float> errors(film.pixels(), 1.0f);
-    const SetSamples have(4, 8), given = distribute(film, errors, have, 8.001, 2);
+    const SetSamples have(4, 8), given = distribute_by(film, errors, have, 8.001, 2);
     EXPECT_NE(given, have);
     EXPECT_GT(mean_of(film, given), 8);
 }
