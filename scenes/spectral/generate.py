@@ -74,6 +74,49 @@ def prism_seen():
     return prism(lamp_height=2.0)
 
 
+def lines():
+    """Bunsen's chart: five small lamps in five lanes between black walls, each with a slit of its own before one prism."""
+    scene = Gltf()
+    angle = math.radians(59.5659 / 2)
+    into, out = numpy.array([math.cos(angle), math.sin(angle), 0]), numpy.array([math.cos(angle), -math.sin(angle), 0])
+    up, across = numpy.array([-into[1], into[0], 0]), numpy.array([-out[1], out[0], 0])
+    side, lane, opening, half_slit = 0.3, 0.26, 0.13, 0.004
+    entry, leave = numpy.array([-side / 4, 0, 0]), numpy.array([side / 4, 0, 0])
+    slit, card, z = entry - 0.5 * into, entry - 6 * into, numpy.array([0, 0, 1])
+    black, white = surface(scene, "black", (0, 0, 0), lambert=True), surface(scene, "screen", (0.9, 0.9, 0.9), lambert=True)
+    height = side * math.sqrt(3) / 2
+    put(scene, bar([(x, y - height / 6) for x, y in triangle(side)], 1.4), glass(scene, "prism", "SF10"), "prism")
+    lamps = [("black body", {"blackbody": 3000}, 60),
+             ("mercury", {"lines": [[404.66, 1.8], [435.83, 4], [546.07, 5], [576.96, 1.2], [579.07, 1.2]]}, 20),
+             ("sodium", {"lines": [[588.995, 2], [589.592, 1]]}, 5),
+             ("hydrogen", {"lines": [[410.17, 0.6], [434.05, 1], [486.13, 2], [656.28, 5]]}, 12),
+             ("laser", {"laser": 532}, 5)]
+    put(scene, shapes.quad(slit + half_slit * up - 2 * z, 4 * z, 3 * up), black, "above the slits")
+    put(scene, shapes.quad(slit - half_slit * up - 2 * z, 4 * z, -9 * up), black, "below the slits")
+    edges = [-2.0]
+    for k, (name, spectrum, strength) in enumerate(lamps):
+        middle = lane * (2 - k)
+        extras = {"triad": {"spectrum": spectrum}}
+        if k == 0:  # a filament; the others are points
+            material = scene.material(name, pbrMetallicRoughness={"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+                                      emissiveFactor=[1, 1, 1], extensions={"KHR_materials_emissive_strength": {"emissiveStrength": strength / 0.0001}},
+                                      extras=extras)
+            put(scene, shapes.quad(card - 0.005 * up + (middle - 0.005) * z, 0.01 * up, 0.01 * z), material, name)
+        else:
+            light = scene.light("point", name=name, intensity=strength, extras=extras)
+            scene.node(light=light, translation=list(card + middle * z), name=name)
+        edges += [middle - opening / 2, middle + opening / 2]
+    edges = sorted(edges + [2.0])
+    for a, b in zip(edges[::2], edges[1::2]):
+        put(scene, shapes.quad(slit - 2 * half_slit * up + a * z, (b - a) * z, 4 * half_slit * up), black, "between the slits")
+    for k in range(6):
+        put(scene, shapes.quad(slit - 2 * up + lane * (k - 2.5) * z, 4 * up, -6.5 * into), black, "wall")
+    centre = leave + 3 * out
+    put(scene, shapes.quad(centre - 0.7 * across - z, 2 * z, 1.4 * across), white, "screen")
+    eye(scene, leave + 1.2 * out - 0.08 * across, centre - 0.08 * across, 41, "screen", aspect=0.4, up=z)
+    return scene
+
+
 def cubo():
     """A box with a prism inside and a small lamp: caustics of all colours on the walls."""
     scene = Gltf()
@@ -119,6 +162,45 @@ def gem():
         a, b = 8 + i, 8 + (i + 1) % 16
         faces += [[a, a + 16, b + 16], [a, b + 16, b], [a + 16, 40, b + 16]]
     return {"positions": points[numpy.array(faces).ravel()], "indices": numpy.arange(3 * len(faces)).reshape(-1, 3)}
+
+
+def owl(rings=120, segments=240):
+    """A body in polar form about its middle: breast and head, plumage, eyes, beak, ears; flat below."""
+    theta, phi = numpy.meshgrid(math.pi * (numpy.arange(rings + 1) / rings), 2 * math.pi * numpy.arange(segments) / segments, indexing="ij")
+    d = numpy.stack([numpy.sin(theta) * numpy.sin(phi), numpy.cos(theta), numpy.sin(theta) * numpy.cos(phi)], axis=2)
+
+    def reach(centre, radius):
+        """How far a ball around the middle reaches in every direction."""
+        along = d @ numpy.array(centre)
+        return along + numpy.sqrt(along ** 2 + radius ** 2 - numpy.dot(centre, centre))
+
+    def bump(direction, width, ring=0.0):
+        direction = numpy.array(direction) / numpy.linalg.norm(direction)
+        return numpy.exp(-((numpy.arccos(numpy.clip(d @ direction, -1, 1)) - ring) / width) ** 2)
+
+    r = numpy.log(numpy.exp(14 * reach((0, -0.30, 0), 0.78)) + numpy.exp(14 * reach((0, 0.42, 0.08), 0.62))) / 14
+    feathers = numpy.abs(numpy.sin(11 * theta)) * (0.5 + 0.5 * numpy.cos(15 * phi + math.pi * numpy.floor(11 * theta / math.pi)))
+    r += 0.045 * feathers * numpy.clip((theta - 1.5) / 0.2, 0, 1) * numpy.clip((2.7 - theta) / 0.2, 0, 1)
+    r += 0.20 * bump((0, 0.30, 1), 0.10) + 0.06 * bump((0, 0.62, 0.9), 0.12)
+    for side in (-1, 1):
+        r += 0.07 * bump((0.34 * side, 0.50, 0.9), 0.05, ring=0.24) + 0.06 * bump((0.34 * side, 0.50, 0.9), 0.11)
+        r += 0.32 * bump((0.48 * side, 1.15, 0.15), 0.13)
+    r = numpy.minimum(r, 0.98 / numpy.maximum(-d[..., 1], 1e-9))
+    return forms.without_slivers(forms.grid((d * r[..., None])[:, ::-1], closed_v=True))
+
+
+def bust():
+    """An owl of heavy flint, 57,000 triangles, before a window."""
+    scene = Gltf()
+    body = owl()
+    body["positions"] = body["positions"] + [0, 0.985, 0]
+    put(scene, forms.moved(body, turn_y=-24), glass(scene, "flint", "SF11", tint=(0.95, 0.9, 0.75), distance=1.5), "owl")
+    put(scene, cove(8, 9, -3, 7, 2.5), surface(scene, "slate", (0.22, 0.22, 0.25), roughness=0.5), "cove")
+    for k in range(3):
+        panel(scene, f"pane {k}", (30, 30, 30), (-3.2 + 0.8 * k, 3.2, -0.2 - 0.6 * k), (0, 0.9, 0), 0.5, 1.8)
+    panel(scene, "lamp", (7, 6.7, 6), (2.6, 3.4, 2.2), (0, 0.9, 0), 1.6, 1.6)
+    eye(scene, (0.3, 1.5, 5.4), (0, 0.95, 0), 28, aspect=1)
+    return scene
 
 
 def water_glass():
@@ -177,7 +259,7 @@ def spheres():
     return scene
 
 
-SCENES = {"prism": prism, "prism_seen": prism_seen, "cubo": cubo, "figure": figure, "water_glass": water_glass, "droplet": droplet, "spheres": spheres}
+SCENES = {"prism": prism, "prism_seen": prism_seen, "lines": lines, "cubo": cubo, "figure": figure, "bust": bust, "water_glass": water_glass, "droplet": droplet, "spheres": spheres}
 
 
 def main():

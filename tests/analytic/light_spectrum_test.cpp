@@ -179,5 +179,44 @@ TEST(LightSpectra, white_light_is_the_whole_band) {
     }
 }
 
+TEST(LightSpectra, nothing_at_the_limits_of_what_files_may_say_is_no_number) {
+    const Dispersion glasses[] = {{Dispersion::Law::cauchy, 0, {1.0}, {}},
+                                  {Dispersion::Law::cauchy, 0, {9.9, 0.01}, {}},
+                                  abbe_dispersion(1.5, 60),
+                                  {Dispersion::Law::sellmeier, 1, {0.5}, {0.1435}}};  // next to its pole
+    const LightSpectrum spectra[] = {{Law::lines, 0, {{380, 1}}},
+                                     {Law::lines, 0, {{780, 1e30}, {500, 1e-30}}},
+                                     {Law::blackbody, LightSpectrum::least_temperature, {}},
+                                     {Law::blackbody, LightSpectrum::most_temperature, {}}};
+    for (int i = 0; i < 4; ++i)
+        for (const Spectral scheme : {Spectral::automatic, Spectral::full, Spectral::classic}) {
+            ASSERT_TRUE(glasses[i].is_sane()) << i;
+            Builder b;
+            Material body = glass(float(glasses[i].index(line_d)), i % 2 ? 0.3f : 0.0f);
+            body.dispersion = glasses[i];
+            Material lamp = emitter(1);
+            lamp.emission_spectrum = spectra[i];
+            b.add(shapes::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), lambert(0.7f));
+            b.add(shapes::box({-0.7f, 0.3f, -0.4f}, {0.7f, 1.1f, 0.4f}), body);
+            b.add(shapes::quad({-0.6f, 2.2f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}), lamp);
+            b.scene.lights.push_back({.position = {1, 2, 1}, .spectrum = spectra[3 - i]});
+            Scene scene = b.scene;
+            validate(scene);
+            RenderSettings settings;
+            settings.width = settings.height = 32;
+            settings.spectral = scheme;
+            settings.integrator = Integrator::automatic;
+            settings.view = look_at({0.4, 1.5, 3.6}, {0, 0.5, 0}, 0.8, 1);
+            Renderer renderer(test_device(), scene, settings);
+            renderer.render({0, 16}, [](const Progress&) { return true; });
+            const Film film = renderer.film();
+            EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u) << i << ", " << int(scheme);
+            EXPECT_EQ(film.counters[COUNTER_SATURATED], 0u) << i << ", " << int(scheme);
+            double sum = 0;
+            for (std::size_t p = 0; p < film.pixels(); ++p) sum += std::abs(pixel_mean(film, p)[0]);
+            EXPECT_TRUE(std::isfinite(sum) && sum > 0) << i << ", " << int(scheme);
+        }
+}
+
 }  // namespace
 }  // namespace triad::analytic

@@ -124,12 +124,55 @@ TEST(GlassInFiles, dispersion_without_volume_is_left_out_with_a_warning) {
     loaded(triad({{"glas", "SF10"}}), json::object(), 1, 1);
 }
 
-TEST(GlassInFiles, an_absurd_index_is_a_warning_and_a_negative_distance_an_error) {
-    EXPECT_EQ(loaded(json::object(), {{"KHR_materials_ior", {{"ior", 1000}}}}, 1, 1).ior, 1000.0f);
+TEST(GlassInFiles, dispersion_without_volume_says_what_is_missing) {
     GltfBuilder b;
-    with_glass(b, json::object(),
-               {{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", -1}}}});
-    EXPECT_THROW(b.load(), Error);
+    with_glass(b, triad({{"glass", "SF10"}}), json::object(), 0).load();
+    const std::string said = b.report.warnings.at(0);
+    for (const char* words :
+         {"'prism'", "KHR_materials_transmission", "KHR_materials_volume", "it is left out"})
+        EXPECT_NE(said.find(words), std::string::npos) << said;
+}
+
+TEST(GlassInFiles, an_index_that_no_body_has_is_a_warning) {
+    const struct {
+        double ior;
+        float used;
+        const char* words;
+    } cases[] = {{0.5, 1.0f, "has an ior below 1, which is taken as 1"},
+                 {1000, 1000.0f, "has an ior above 10, which no transparent material has"}};
+    for (const auto& c : cases) {
+        GltfBuilder b;
+        const Scene scene = with_glass(b, json::object(), {{"KHR_materials_ior", {{"ior", c.ior}}}}).load();
+        EXPECT_EQ(scene.materials.at(0).ior, c.used);
+        ASSERT_EQ(b.report.warnings.size(), 1u);
+        EXPECT_NE(b.report.warnings[0].find(c.words), std::string::npos) << b.report.warnings[0];
+        EXPECT_NE(b.report.warnings[0].find("'prism'"), std::string::npos) << b.report.warnings[0];
+    }
+}
+
+TEST(GlassInFiles, numbers_of_extensions_that_cannot_be_are_errors) {
+    const struct {
+        json extensions;
+        const char* words;
+    } cases[] = {
+        {{{"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", -1}}}},
+         "attenuationDistance"},
+        {{{"KHR_materials_ior", {{"ior", -1.5}}}}, "ior"},
+        {{{"KHR_materials_dispersion", {{"dispersion", -0.3}}}}, "dispersion"},
+        {{{"KHR_materials_ior", {{"ior", 1000}}}, {"KHR_materials_dispersion", {{"dispersion", 0.3}}}},
+         "index of refraction outside 1 to 10"}};
+    for (const auto& c : cases) {
+        GltfBuilder b;
+        try {
+            Scene scene = with_glass(b, json::object(), c.extensions).load();
+            validate(scene);
+            ADD_FAILURE() << c.extensions;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.exit(), Exit::scene);
+            EXPECT_NE(std::string(e.what()).find(c.words), std::string::npos) << e.what();
+            EXPECT_EQ(std::string(e.what()).back(), '.') << e.what();
+        }
+    }
 }
 
 TEST(GlassInFiles, what_is_malformed_is_refused_with_a_sentence) {
