@@ -58,6 +58,10 @@
 #ifndef TRIAD_PHOTONS /* photons bring the light that mirrors and glass throw onto other surfaces */
 #define TRIAD_PHOTONS 1
 #endif
+#ifndef TRIAD_GATHER /* photons are gathered too, where mirrors, glass or a bounce come before them \
+                      * (needs TRIAD_PHOTONS) */
+#define TRIAD_GATHER 1
+#endif
 #ifndef TRIAD_BINS /* the film has more than one bin per pixel */
 #define TRIAD_BINS 1
 #endif

@@ -325,6 +325,12 @@ typedef struct RayFilterShape {
 } RayFilterShape;
 TRIAD_SIZE(RayFilterShape, 28);
 
+/* Where paths gather photons, and which: Frame.photon_map */
+#define PHOTON_MAP_PROGRESSIVE \
+    1u /* at every vertex but the first, light that came by mirrors and glass alone */
+#define PHOTON_MAP_FINAL_GATHER 2u /* such light at the first surface that blurs, all light at the second */
+#define PHOTON_MAP_VISUALISED 3u   /* all light but the direct at the first surface that blurs */
+
 /* Everything of one picture that does not change between launches. */
 typedef struct Frame {
     Camera camera;
@@ -343,8 +349,9 @@ typedef struct Frame {
     uint wavelength_from_camera; /* 1: every path has a wavelength from its start on */
     uint ray_start;              /* RAY_START_* */
     RayFilterShape ray_filter;
+    uint photon_map; /* PHOTON_MAP_*, or 0: paths gather no photons */
 } Frame;
-TRIAD_SIZE(Frame, 332);
+TRIAD_SIZE(Frame, 336);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling
@@ -382,12 +389,32 @@ TRIAD_SIZE(Caster, 16);
 
 #define PHOTON_CASTERS 32 /* at most */
 
+/* A photon that landed, as it lies in a map. */
+typedef struct Photon {
+    float position[3]; /* rebased */
+    float power[3]; /* flux over the cosine at which it came in; of one wavelength: per nm, without its filter
+                     */
+    uint direction; /* where it came from, the edges of its way, and what this was: photon_map.h */
+    uint normal;    /* of the surface on the side it came from, and its wavelength */
+} Photon;
+TRIAD_SIZE(Photon, 32);
+
+/* Photons of one pass (or of all), by the cell of a hash grid that they lie in: shading/photon_map.h. */
+typedef struct PhotonMap {
+    float radius;         /* of the sphere that is searched around a point */
+    float cells_per_unit; /* 1 / side of a cell, which is wider than the sphere */
+    uint bucket_mask;     /* buckets - 1: a power of two */
+    float wavelengths;    /* nm: light of one wavelength is gathered from photons within this of it */
+    float caustic_radius; /* of PHOTON_MAP_FINAL_GATHER at the first surface */
+} PhotonMap;
+TRIAD_SIZE(PhotonMap, 20);
+
 /* What all photons of a picture share. Sample s of the picture comes with photons [s * count, (s + 1) *
  * count) of the sequence. */
 typedef struct PhotonFrame {
     uint count;
-    uint casters;
-    uint unused;
+    uint casters;          /* 0: photons start everywhere, aimed at nothing */
+    uint scatter;          /* 1: every surface scatters them; 0: mirrors and glass alone do */
     float pixel_area;      /* of a pixel on the image plane at distance 1 (orthographic: in scene units) */
     CdfShape lights;       /* the tree that photons pick their light by */
     float scene_centre[3]; /* of a sphere around what is drawn: light from afar starts outside */

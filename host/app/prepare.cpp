@@ -88,6 +88,9 @@ RenderSettings settings_of(const RenderOptions& o, const Scene& scene) {
     settings.spectral = o.spectral;
     settings.integrator = o.integrator;
     settings.photons = o.photons;
+    settings.aim_photons = o.aim_photons;
+    settings.final_gather = o.final_gather;
+    settings.photon_radius = o.photon_radius;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
     settings.environment_rotation = o.env_rotate * pi / 180;

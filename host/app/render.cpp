@@ -182,6 +182,7 @@ Exit run(RenderOptions o) {
             {"seed", o.seed},
             {"integrator", renderer.integrator()},
             {"photons_per_sample", renderer.photons()},
+            {"photon_s", renderer.photon_seconds()},
             {"complete", complete},
             {"load_s", load_s},
             {"build_s", renderer.build_seconds()},

@@ -1,6 +1,7 @@
 #include "app/render_options.h"
 
 #include <algorithm>
+#include <map>
 
 #include "app/command_line.h"
 
@@ -66,21 +67,51 @@ void declare(CLI::App& command, RenderOptions& o) {
             "time; 1: most samples)")
         ->check(CLI::Range(0.01, 10.0))
         ->type_name("T");
-    add_parsed(command, "--integrator", "NAME",
-               "auto (the default: photons where something casts the light of a small source onto other "
-               "surfaces), path (paths alone) or photons (from every light)",
-               [&o](const std::string& v) {
-                   if (v != "auto" && v != "path" && v != "photons")
-                       throw Error(Exit::usage, "--integrator " + v + ": auto, path or photons.");
-                   o.integrator = v == "auto"   ? Integrator::automatic
-                                  : v == "path" ? Integrator::path
-                                                : Integrator::photons;
-               });
+    add_parsed(
+        command, "--integrator", "NAME",
+        "auto (the default: photons where something casts the light of a small source onto other "
+        "surfaces), path (paths alone), photons (from every light), light (photons that the camera sees "
+        "directly, paths for all else) or photon-map (the classic method)",
+        [&o](const std::string& v) {
+            static const std::map<std::string, Integrator> integrators = {
+                {"auto", Integrator::automatic},
+                {"path", Integrator::path},
+                {"photons", Integrator::photons},
+                {"light", Integrator::light},
+                {"photon-map", Integrator::photon_map}};
+            const auto found = integrators.find(v);
+            if (found == integrators.end())
+                throw Error(Exit::usage, "--integrator " + v + ": auto, path, photons, light or photon-map.");
+            o.integrator = found->second;
+        });
     command
-        .add_option("--photons", o.photons,
-                    "Photons with every sample of the picture (default: one for each pixel)")
+        .add_option(
+            "--photons", o.photons,
+            "Photons with every sample of the picture (default: one for each pixel); of photon-map: in "
+            "all (default: a million)")
         ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
         ->type_name("N");
+    command
+        .add_option(
+            "--photon-radius", o.photon_radius,
+            "In which photons are gathered, in scene units: of the first sample, after which it shrinks, "
+            "or of photon-map (default: chosen by the scene)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("R");
+    add_parsed(command, "--photon-aim", "on|off",
+               "Aim photons at what mirrors and refracts (default on; off: to compare)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off")
+                       throw Error(Exit::usage, "--photon-aim " + v + ": on or off.");
+                   o.aim_photons = v == "on";
+               });
+    add_parsed(command, "--final-gather", "on|off",
+               "With photon-map: bounce once before the map is looked up (default on)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off")
+                       throw Error(Exit::usage, "--final-gather " + v + ": on or off.");
+                   o.final_gather = v == "on";
+               });
     add_parsed(command, "--sampler", "NAME",
                "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
                [&o](const std::string& v) {
@@ -238,11 +269,12 @@ void complete(RenderOptions& o) {
             Exit::usage,
             "--pixel makes no picture: it cannot be combined with -o, --film, --crop, --error, --time or "
             "--adaptive.");
-    if (o.integrator == Integrator::photons && (o.pixel || o.adaptive.value_or(false)))
+    if (o.integrator != Integrator::automatic && o.integrator != Integrator::path &&
+        (o.pixel || o.adaptive.value_or(false)))
         throw Error(
             Exit::usage,
-            "--integrator photons lights the picture as a whole: it cannot be combined with --pixel or "
-            "--adaptive on; use --integrator path there.");
+            "Photons light the picture as a whole: --integrator photons, light and photon-map cannot be "
+            "combined with --pixel or --adaptive on; use --integrator path there.");
     if (o.pixel || o.adaptive.value_or(false)) o.integrator = Integrator::path;
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");

@@ -30,8 +30,10 @@ struct RenderOptions {
     unsigned max_depth = 0;
     double roulette = RenderSettings{}.roulette;
     Integrator integrator = Integrator::automatic;
-    std::uint64_t photons = 0;  ///< with every sample of the picture; 0: one for each pixel
-    bool independent = false;   ///< samples, instead of Sobol's sequence
+    std::uint64_t photons = 0;
+    bool aim_photons = true, final_gather = true;
+    double photon_radius = 0;  ///< the last four: as in RenderSettings
+    bool independent = false;  ///< samples, instead of Sobol's sequence
     Spectral spectral = Spectral::automatic;
     ReconstructOptions reconstruct;
     std::string device;

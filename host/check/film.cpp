@@ -7,7 +7,7 @@
 namespace triad {
 namespace {
 
-const char* const source = R"(#include "subpixel/film.h"
+const char* const source = R"(#include "common/film.h"
 TRIAD_FUNCTION float value_of(uint i) { return 0.7f + convert_float(i % 1000u) * 0.001f; }
 /* Each item adds `each` of the known values. */
 __kernel void accumulate(__global long* out, uint each, uint count) {

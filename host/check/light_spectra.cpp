@@ -18,7 +18,9 @@ __kernel void draw_light(__global float4* out, __global const Spectrum* spectrum
     float3 filter;
     float nanometres;
     if (by_light != 0u) {
-        nanometres = spectrum_sample_light(spectrum, which, u, &filter);
+        float carried;
+        nanometres = spectrum_draw_light(spectrum, which, u, &carried);
+        filter = spectrum_filter(spectrum, nanometres) * carried;
     } else {
         nanometres = spectrum_sample(spectrum, u, &filter);
         filter *= spectrum_of_light(spectrum, which, nanometres);

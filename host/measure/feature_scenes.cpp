@@ -170,9 +170,17 @@ const std::map<std::string, Recipe>& recipes() {
          }}},
         {"INDEPENDENT_SAMPLES", {[](FeatureScene& s) { s.settings.independent = true; }}},
         {"PHOTONS",
+         {[](FeatureScene& s) { s.settings.integrator = Integrator::light; },
+          [](FeatureScene& s) {
+              use_specular(s);
+              s.scene.materials[ring_material].roughness = 0.0f;
+              s.scene.materials[lamp_material].emission = vec3(5.0f);
+          }}},
+        {"GATHER",
          {[](FeatureScene& s) { s.settings.integrator = Integrator::photons; },
           [](FeatureScene& s) {
               use_specular(s);
+              s.settings.integrator = Integrator::light;
               s.scene.materials[ring_material].roughness = 0.0f;
               s.scene.materials[lamp_material].emission = vec3(5.0f);
           }}},

@@ -26,6 +26,7 @@ constexpr FeatureOption table[] = {
     {"INDEPENDENT_SAMPLES", &Features::independent_samples},
     {"RAY_STARTS", &Features::ray_starts},
     {"PHOTONS", &Features::photons},
+    {"GATHER", &Features::gather},
     {"BINS", &Features::bins},
 };
 
@@ -78,7 +79,8 @@ Features features_of(const Scene& scene, const RenderSettings& settings, const P
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;
     f.ray_starts = settings.ray_start != RayStart::jitter;
-    f.photons = !packed.casters.empty();
+    f.photons = packed.chosen != Integrator::path;
+    f.gather = packed.chosen == Integrator::photons || packed.chosen == Integrator::photon_map;
     f.bins = settings.bins_x * settings.bins_y > 1;
     return f;
 }

@@ -62,11 +62,15 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.ray_start = settings.ray_start == RayStart::centre   ? RAY_START_CENTRE
                       : settings.ray_start == RayStart::filter ? RAY_START_FILTER
                                                                : RAY_START_JITTER;
+    if (packed.chosen == Integrator::photons) frame.photon_map = PHOTON_MAP_PROGRESSIVE;
+    if (packed.chosen == Integrator::photon_map)
+        frame.photon_map = settings.final_gather ? PHOTON_MAP_FINAL_GATHER : PHOTON_MAP_VISUALISED;
     if (settings.ray_start == RayStart::filter) frame.ray_filter = ray_filter_shape(settings);
     return frame;
 }
 
-DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings) {
+DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings,
+                   const PhotonMapBuffers& photon_map) {
     DeviceScene scene;
     auto add = [&](const auto& values) {
         const Buffer buffer = device.upload(values);
@@ -103,6 +107,7 @@ DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettin
     add(packed.spectrum);
     add(packed.indices);
     add(ray_filter_tables(settings));
+    scene.arguments.add(photon_map.map).add(photon_map.photons).add(photon_map.ends);
     return scene;
 }
 

@@ -48,7 +48,8 @@ struct PackedScene {
     std::vector<dev::Spectrum> spectrum;  ///< one, or none where no path has a wavelength
     std::vector<float> indices;           ///< tables of bodies that disperse
     dev::CdfShape light_shape{};
-    std::vector<dev::Caster> casters;          ///< empty: no photons
+    Integrator chosen = Integrator::path;      ///< never automatic
+    std::vector<dev::Caster> casters;          ///< of photons that are aimed
     std::vector<std::uint32_t> photon_lights;  ///< tree of the lights that photons come from
     dev::CdfShape photon_lights_shape{};
     std::string integrator;  ///< which one was chosen, and why: a sentence
@@ -64,9 +65,18 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings);
 /// Everything of the picture that is no array.
 dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
 
+/// Radius in which photons are gathered with a sample of the picture.
+double photon_radius(const PackedScene& packed, const RenderSettings& settings, const dev::Frame& frame,
+                     std::uint64_t sample);
+
 /// What all photons share. Throws Error(usage) when there are more than 2^32 with a sample.
 dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings& settings,
                                  const dev::Frame& frame);
+
+/// A photon map on the device; empty where nothing is gathered.
+struct PhotonMapBuffers {
+    Buffer map, photons, ends;
+};
 
 /// The packed arrays on a device, in the order of SCENE_PARAMETERS.
 struct DeviceScene {
@@ -74,7 +84,8 @@ struct DeviceScene {
     Buffer frame;  ///< the first of them: one dev::Frame
     std::uint64_t bytes = 0;
 };
-DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings);
+DeviceScene upload(Device& device, const PackedScene& packed, const RenderSettings& settings,
+                   const PhotonMapBuffers& photon_map = {});
 
 /// Bounds of a CDF over weights in units of 2^-32: size + 1 values, first 0, last 2^32 - 1, rising; an entry
 /// of weight zero has an empty interval, any other one at least a unit. All weights zero: every interval but

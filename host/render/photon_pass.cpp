@@ -4,26 +4,54 @@
 #include "render/renderer_state.h"
 
 namespace triad {
+namespace {
 
-void Renderer::State::prepare_photons() {
-    if (packed.casters.empty()) return;
+/// nm: half the width in which light of one wavelength is gathered with the first sample. It shrinks as the
+/// radius does.
+constexpr double first_wavelengths = 10;
+/// Radius for light by mirrors and glass alone, over that for all light, in the classic map.
+constexpr double caustic_share = 0.25;
+
+/// Watchdogs and PoCL (largest_launch) want short launches.
+constexpr std::size_t most_items = largest_launch * FILM_TILE_PIXELS;
+
+}  // namespace
+
+void Renderer::State::allocate_photons() {
+    if (packed.chosen == Integrator::path) return;
     const dev::PhotonFrame shared = photon_frame_of(packed, settings, frame);
     photons = shared.count;
     photon_frame = device.upload(std::vector<dev::PhotonFrame>{shared});
     photon_lights = device.upload(packed.photon_lights);
     casters = device.upload(packed.casters);
-    scene.bytes += photon_frame.bytes() + photon_lights.bytes() + casters.bytes();
-    trace_photons = device.build("photon/photon.cl", options_of(features)).kernel("trace_photons");
-    launch_photons(0, photons, 0);  // compiles, on some drivers; the film is still to be cleared
+    if (packed.chosen == Integrator::light) return;
+    map = PhotonMap(device, photons);
 }
 
-void Renderer::State::launch_photons(std::uint64_t sample, std::uint64_t count, std::uint32_t held) {
-    constexpr std::size_t most = largest_launch * FILM_TILE_PIXELS;
+void Renderer::State::prepare_photons() {
+    if (photons == 0) return;
+    photon_tiles = device.upload(std::vector<std::uint32_t>(tiles, 1));
+    for (const Buffer* b : {&photon_frame, &photon_lights, &casters, &photon_tiles})
+        scene.bytes += b->bytes();
+    scene.bytes += map.bytes();
+    const Options options = options_of(features);
+    trace_photons = device.build("photon/photon.cl", options).kernel("trace_photons");
+    if (map) map.compile(options);
+    launch_photons(0, 64);  // compiles, on some drivers; the film is still to be cleared
+    device.finish();
+    photon_seconds = 0;
+}
+
+void Renderer::State::set_photon_tiles(const std::vector<std::uint32_t>& chosen) {
+    device.write(photon_tiles, chosen.data(), chosen.size() * sizeof(std::uint32_t));
+}
+
+void Renderer::State::launch_photons(std::uint64_t sample, std::uint64_t count) {
     std::uint32_t first_pixel = 0;
     for (const Band& band : bands) {  // a film in several pieces is rare: photons are traced for each
         const std::uint32_t pixels = std::uint32_t(band.half_sums.bytes() / (3 * sizeof(std::int64_t)));
-        for (std::uint64_t first = 0; first < count; first += most) {
-            const std::size_t now = std::min<std::uint64_t>(count - first, most);
+        for (std::uint64_t first = 0; first < count; first += most_items) {
+            const std::size_t now = std::min<std::uint64_t>(count - first, most_items);
             device.run(trace_photons,
                        Arguments()
                            .add(scene.arguments)
@@ -38,14 +66,22 @@ void Renderer::State::launch_photons(std::uint64_t sample, std::uint64_t count, 
                            .add(std::uint32_t(first))
                            .add(std::uint32_t(now))
                            .add(1.0f / float(count))
-                           .add(samples)
-                           .add(held)
+                           .add(map.landed())
+                           .add(photon_tiles)
                            .add(first_pixel)
                            .add(pixels),
                        now);
         }
+        if (is_classic()) break;  // nothing of it goes to the film
         first_pixel += pixels;
     }
+    if (!map) return;
+    const double radius = photon_radius(packed, settings, frame, sample);
+    dev::PhotonMap shape{};
+    shape.radius = float(radius);
+    shape.caustic_radius = float(caustic_share * radius);
+    shape.wavelengths = float(first_wavelengths * radius / photon_radius(packed, settings, frame, 0));
+    map.sort(shape, count);
 }
 
 }  // namespace triad

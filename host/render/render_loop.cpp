@@ -38,6 +38,7 @@ class RenderLoop {
     }
 
     RenderResult run() {
+        if (s_.is_classic() && !s_.has_classic_map) make_classic_map();
         while (const auto end = schedule_.next_round(samples(), seconds())) {
             if (goal_.adaptive && goal_.set_errors && total_ == 0) {
                 reach(SetSamples(have_.size(), std::uint32_t(s_.film.bins())));
@@ -139,36 +140,61 @@ class RenderLoop {
                 w.sample_count[set] = std::min(wanted[2 * t + set] - have_[2 * t + set], run);
             if (w.sample_count[0] + w.sample_count[1] > 0) work.push_back(w);
         }
+        if (s_.photons > 0 && !s_.is_classic()) return pass_with_photons(work, may_be_cut);
         s_.device.write(s_.work, work.data(), work.size() * sizeof(dev::TileWork));
         std::size_t done = 0;
-        while (done < work.size() && !(may_be_cut && is_cut_after(done, work)))
-            done += launch(work, done, may_be_cut);
-        if (s_.photons > 0) trace_photons(work.front(), photon_share(done, work));
+        while (done < work.size() && !(may_be_cut && schedule_.time_is_up(samples(), seconds())))
+            done += launch(work, done, 0, may_be_cut);
         return done == work.size();
     }
 
-    /// Whether the pass ends after the first `done` tiles, to be in time with the photons that these take.
-    bool is_cut_after(std::size_t done, const std::vector<dev::TileWork>& work) const {
-        if (s_.photons == 0) return schedule_.time_is_up(samples(), seconds());
-        const double photons = photon_share(done, work) * photon_seconds_ * work.front().sample_count[0];
-        return done > 0 && schedule_.time_left(seconds() + photons) <= 0;
+    /// The same for an even pass whose samples come with photons. Paths may want these, so that it must be
+    /// known beforehand how many tiles time leaves.
+    bool pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut) {
+        const std::size_t all = work.size();
+        const std::uint32_t run = work.front().sample_count[0];
+        double share = 1;
+        if (may_be_cut) {
+            std::uint64_t items = 0;
+            for (const dev::TileWork& w : work) items += samples_of(w);
+            const double paths = double(items) / s_.items_per_second, photons = run * photon_seconds_,
+                         left = schedule_.time_left(seconds());
+            // as many photons in proportion as tiles, but enough of them
+            double tiles = std::min(left / (paths + photons), 1.0);
+            share = std::max(tiles, least_photon_share);
+            if (tiles < share) tiles = std::clamp((left - share * photons) / paths, 0.0, 1.0);
+            work.resize(std::max<std::size_t>(std::size_t(tiles * double(all)), 1));
+            std::vector<std::uint32_t> chosen(s_.tiles, 0);
+            for (const dev::TileWork& w : work) chosen[w.tile] = 1;
+            s_.set_photon_tiles(chosen);
+        }
+        for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = 1;
+        s_.device.write(s_.work, work.data(), work.size() * sizeof(dev::TileWork));
+        for (std::uint32_t i = 0; i < run; ++i) {
+            trace_photons(goal_.samples.begin + work.front().first_sample[0] + i, share);
+            for (std::size_t done = 0; done < work.size();) done += launch(work, done, i, may_be_cut);
+        }
+        if (may_be_cut) s_.set_photon_tiles(std::vector<std::uint32_t>(s_.tiles, 1));
+        return work.size() == all;
     }
 
-    /// Of its photons, what a sample gets that goes to the first `done` tiles: as much, but enough of them.
-    static double photon_share(std::size_t done, const std::vector<dev::TileWork>& work) {
-        return std::max(least_photon_share, double(done) / double(work.size()));
-    }
-
-    /// The photons of an even pass, which `any` of its tiles tells about.
-    void trace_photons(const dev::TileWork& any, double share) {
+    void trace_photons(std::uint64_t sample, double share) {
         const double began = seconds();
-        const auto count = std::uint64_t(std::ceil(share * double(s_.photons)));
-        const auto before = std::uint32_t(samples_before_) + any.first_sample[0];
-        for (std::uint32_t i = 0; i < any.sample_count[0]; ++i)
-            s_.launch_photons(goal_.samples.begin + any.first_sample[0] + i, count, before + i + 1);
+        s_.launch_photons(sample, std::uint64_t(std::ceil(share * double(s_.photons))));
         s_.device.finish();
-        photon_seconds_ = (seconds() - began) / (any.sample_count[0] * share);
+        const double took = seconds() - began;
+        s_.photon_seconds += took;
+        photon_seconds_ = took / share;
         schedule_.set_least_step(least_photon_share * photon_seconds_ * double(s_.film.bins()));
+    }
+
+    /// The map of the classic method, once.
+    void make_classic_map() {
+        const double began = seconds();
+        s_.launch_photons(0, s_.photons);
+        s_.device.finish();
+        s_.photon_seconds += seconds() - began;
+        s_.has_classic_map = true;
     }
 
     /// The tiles in an order whose every beginning is spread over the picture: a pass that is cut favours no
@@ -185,9 +211,10 @@ class RenderLoop {
                std::uint64_t(w.sample_count[1]) * pixels_[2 * w.tile + 1];
     }
 
-    /// As much of work[first, ...) as takes launch_seconds, or the time left. Returns how many tiles that
-    /// were.
-    std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, bool may_be_cut) {
+    /// As much of work[first, ...) as takes launch_seconds, or the time left, `sample` samples on. Returns
+    /// how many tiles that were.
+    std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, std::uint32_t sample,
+                       bool may_be_cut) {
         const double time =
             may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds())) : launch_seconds;
         const double fit = s_.items_per_second * time;
@@ -199,7 +226,7 @@ class RenderLoop {
                (n == 0 || s_.items_per_second == 0 || double(samples) < fit))
             samples += samples_of(work[first + n++]);
         const auto start = RenderClock::now();
-        s_.launch(first, n, goal_.samples.begin, band);
+        s_.launch(first, n, goal_.samples.begin + sample, band);
         s_.device.finish();
         const double rate = double(samples) / std::max(seconds_since(start), 1e-6);
         // Small launches are dominated by overhead and must not make the next ones smaller still.

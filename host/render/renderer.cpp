@@ -107,7 +107,8 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.frame = frame_of(s.packed, settings);
     s.build_seconds = seconds_since(build_start);
     s.features = features ? *features : features_of(scene, settings, s.packed);
-    s.scene = upload(device, s.packed, settings);
+    s.allocate_photons();
+    s.scene = upload(device, s.packed, settings, s.map.buffers());
     s.name_sources(scene);
 
     Film& f = s.film;
@@ -126,8 +127,8 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.clear_film();
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
     device.write(s.work, &first_tile, sizeof first_tile);
-    s.launch(0, 1, 0, 0);
     s.prepare_photons();
+    s.launch(0, 1, 0, 0);
     device.finish();
     s.clear_film();
     s.compile_seconds = seconds_since(compile_start);
@@ -135,6 +136,10 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     light.origin = s.packed.origin;
     light.duplicates = s.packed.duplicates;
     light.integrator = s.packed.integrator;
+    light.chosen = s.packed.chosen;
+    light.casters = s.packed.casters;
+    light.photon_lights_shape = s.packed.photon_lights_shape;
+    light.bounds = s.packed.bounds;
     s.packed = std::move(light);
 }
 
@@ -147,6 +152,7 @@ void Renderer::restart(std::uint32_t seed) {
     s.name_settings();
     s.clear_film();
     s.film.ranges.clear();
+    s.has_classic_map = false;
 }
 
 Film Renderer::film() {
@@ -190,6 +196,7 @@ double Renderer::build_seconds() const { return state_->build_seconds; }
 double Renderer::compile_seconds() const { return state_->compile_seconds; }
 const std::string& Renderer::integrator() const { return state_->packed.integrator; }
 std::uint64_t Renderer::photons() const { return state_->photons; }
+double Renderer::photon_seconds() const { return state_->photon_seconds; }
 std::uint64_t Renderer::device_bytes() const { return state_->scene.bytes; }
 
 }  // namespace triad

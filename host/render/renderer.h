@@ -77,9 +77,11 @@ class Renderer {
 
     const Features& features() const;
     const std::string& integrator() const;  ///< which one was chosen, and why
-    std::uint64_t photons() const;          ///< with every sample of the picture
-    double build_seconds() const;           ///< trees and packing
-    double compile_seconds() const;         ///< kernels, with the warm-up launch
+    /// With every sample of the picture, or in all for the classic map; 0: none.
+    std::uint64_t photons() const;
+    double photon_seconds() const;   ///< that photons and their maps have taken
+    double build_seconds() const;    ///< trees and packing
+    double compile_seconds() const;  ///< kernels, with the warm-up launch
     std::uint64_t device_bytes() const;
 
   private:

@@ -7,6 +7,7 @@
 
 #include "kernels/types.h"
 #include "render/pack.h"
+#include "render/photon_map.h"
 #include "render/renderer.h"
 
 namespace triad {
@@ -41,10 +42,14 @@ struct Renderer::State {
     std::size_t band_tiles = 0;  ///< of each but the last
     Buffer samples, counters;
     Buffer photon_frame, photon_lights, casters;
-    std::uint64_t photons = 0;                ///< with every sample of the picture
-    Buffer work;                              ///< of a pass: one dev::TileWork for every tile
-    std::size_t tiles = 0;                    ///< of the crop
-    Film film;                                ///< without the arrays
+    Buffer photon_tiles;           ///< which tiles get the sample that photons belong to
+    PhotonMap map;                 ///< none: nothing is gathered
+    std::uint64_t photons = 0;     ///< with every sample of the picture, or in all for the classic map
+    bool has_classic_map = false;  ///< of this seed
+    double photon_seconds = 0;     ///< that photons and their maps took
+    Buffer work;                   ///< of a pass: one dev::TileWork for every tile
+    std::size_t tiles = 0;         ///< of the crop
+    Film film;                     ///< without the arrays
     std::vector<std::string> source_names;    ///< see Renderer::light_sources()
     std::vector<std::uint32_t> light_source;  ///< of each dev::Light
     double build_seconds = 0, compile_seconds = 0;
@@ -56,11 +61,16 @@ struct Renderer::State {
     void allocate_film();
     /// Renders work[first, first + count), all of one band, whose samples are counted from first_sample.
     void launch(std::size_t first, std::size_t count, std::uint64_t first_sample, std::size_t band);
-    /// Uploads what photons need and compiles their kernel, where the scene wants them.
+    /// Allocates what the scene's arguments need of photons; before it is uploaded.
+    void allocate_photons();
+    /// Uploads what else photons need and compiles their kernels, where the scene wants them.
     void prepare_photons();
-    /// Adds to the film the photons of a sample of the picture, `count` of them standing for all, where a
-    /// pixel holds `held` samples or more: that one is among them.
-    void launch_photons(std::uint64_t sample, std::uint64_t count, std::uint32_t held);
+    /// Which tiles of the crop the next photons count in.
+    void set_photon_tiles(const std::vector<std::uint32_t>& tiles);
+    /// Traces the photons of a sample of the picture, `count` of them standing for all: to the film, and into
+    /// the map where paths gather.
+    void launch_photons(std::uint64_t sample, std::uint64_t count);
+    bool is_classic() const { return packed.chosen == Integrator::photon_map; }
     void clear_film();
     void name_settings();  ///< in the film
     /// Fills source_names and light_source; before the packed arrays go.

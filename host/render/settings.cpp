@@ -32,7 +32,8 @@ std::string text_of(const RenderSettings& s) {
     add("independent", {double(s.independent)});
     if (s.spectral != Spectral::automatic) add("spectral", {double(s.spectral)});
     if (s.integrator != Integrator::path)
-        add("photons", {double(s.integrator == Integrator::photons), double(s.photons)});
+        add("photons", {double(s.integrator), double(s.photons), double(s.aim_photons), s.photon_radius,
+                        double(s.final_gather)});
     add("transparent", {double(s.transparent)});
     add("eye", {v.eye.x, v.eye.y, v.eye.z});
     add("right", {v.right.x, v.right.y, v.right.z});

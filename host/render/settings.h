@@ -29,7 +29,9 @@ enum class Spectral {
 enum class Integrator {
     automatic,  ///< photons where something casts and its light is small, else paths
     path,       ///< paths alone: unidirectional path tracing
-    photons,    ///< photons from every light
+    photons,    ///< photons from every light: splatted where the camera sees them, gathered elsewhere
+    light,      ///< splatted alone; what is met later is left to paths (light tracing)
+    photon_map  ///< the classic method: a map of photons from everywhere, made once
 };
 
 struct RenderSettings {
@@ -50,7 +52,11 @@ struct RenderSettings {
     bool independent = false;
     Spectral spectral = Spectral::automatic;
     Integrator integrator = Integrator::path;
-    std::uint64_t photons = 0;  ///< with every sample of the picture; 0: one for each pixel
+    /// With every sample of the picture (0: one for each pixel); of the classic map: all (0: a million).
+    std::uint64_t photons = 0;
+    bool aim_photons = true;   ///< at what mirrors and refracts; false: to compare
+    double photon_radius = 0;  ///< scene units, of the first sample or of the classic map; 0: chosen
+    bool final_gather = true;  ///< classic map: bounce once before it is looked up
     bool transparent =
         false;  ///< the background is not seen by the camera: alpha 0 there (RGB is associated)
     View view;

@@ -23,15 +23,22 @@ TRIAD_FUNCTION float3 spectrum_filter(global const Spectrum* s, float nanometres
     return fma((float4)(t), b - a, a).xyz;
 }
 
-/* Draws a wavelength in nm from u in [0, 1). *filter: spectrum_filter over the density, whose mean over u is
- * (1, 1, 1): a path of throughput T that goes on with this wavelength alone brings T * filter. Whatever meets
- * (a path and the photons that it gathers) must share one wavelength, and the filter counts once. */
-TRIAD_FUNCTION float spectrum_sample(global const Spectrum* s, float u, float3* filter) {
+/* Draws a wavelength in nm from u in [0, 1). *nm: 1 / its density. */
+TRIAD_FUNCTION float spectrum_draw(global const Spectrum* s, float u, float* nm) {
     const float x = u * (float)(WAVELENGTH_NODES - 1);
     const uint i = min(convert_uint(x), WAVELENGTH_NODES - 2u);
     const float lo = s->wavelength[i], width = s->wavelength[i + 1u] - lo;
-    const float nanometres = fma(x - convert_float(i), width, lo);
-    *filter = spectrum_filter(s, nanometres) * (width * (float)(WAVELENGTH_NODES - 1));
+    *nm = width * (float)(WAVELENGTH_NODES - 1);
+    return fma(x - convert_float(i), width, lo);
+}
+
+/* Draws a wavelength too. *filter: spectrum_filter over the density, whose mean over u is (1, 1, 1): a path
+ * of throughput T that goes on with this wavelength alone brings T * filter. Where two of one wavelength each
+ * meet (a path and a photon that it gathers), the filter counts once. */
+TRIAD_FUNCTION float spectrum_sample(global const Spectrum* s, float u, float3* filter) {
+    float nm;
+    const float nanometres = spectrum_draw(s, u, &nm);
+    *filter = spectrum_filter(s, nanometres) * nm;
     return nanometres;
 }
 
@@ -59,16 +66,16 @@ TRIAD_FUNCTION float3 spectrum_colour_of_light(global const Spectrum* s, uint wh
     return (float3)(1.0f);
 }
 
-/* spectrum_sample() by the spectrum of the light that a photon comes from; the mean of *filter is the light's
- * colour. */
-TRIAD_FUNCTION float spectrum_sample_light(global const Spectrum* s, uint which, float u, float3* filter) {
+/* spectrum_draw() by the spectrum of the light that a photon comes from. *carried: the light's share at that
+ * wavelength over the density, in nm. The mean of carried * spectrum_filter is the light's colour. */
+TRIAD_FUNCTION float spectrum_draw_light(global const Spectrum* s, uint which, float u, float* carried) {
 #if TRIAD_LIGHT_SPECTRA
-    const float nanometres = spectrum_sample(s + which, u, filter);
-    *filter *= spectrum_of_light(s, which, nanometres);
+    const float nanometres = spectrum_draw(s + which, u, carried);
+    *carried *= spectrum_of_light(s, which, nanometres);
     return nanometres;
 #else
     (void)which;
-    return spectrum_sample(s, u, filter);
+    return spectrum_draw(s, u, carried);
 #endif
 }
 

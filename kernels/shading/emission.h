@@ -62,10 +62,37 @@ TRIAD_FUNCTION float photon_aim(global const Caster* casters, uint count, float3
     return 2.0f * MATH_PI * total / (float)hits;
 }
 
-/* A ray along `direction` through the disc that one of the casters shows to it. Returns 1 / density per area
- * across the direction. */
+/* A direction from a light on the spot that is aimed at nothing: by the cosine, within the cone of a spot, or
+ * anywhere. Returns 1 / density in solid angle. */
+TRIAD_FUNCTION float photon_aimless(const Light* light, float3 axis, float pick, float2 u,
+                                    float3* direction) {
+    const ShadingFrame frame = frame_make(axis);
+    if (light->type == LIGHT_TRIANGLE) {
+        const float3 d = sampling_cosine(u);
+        const int both = (light->flags & MATERIAL_DOUBLE_SIDED) != 0u;
+        *direction = frame_to_world(&frame, (float3)(d.xy, both && pick < 0.5f ? -d.z : d.z));
+        return d.z > 0.0f ? (both ? 2.0f : 1.0f) * MATH_PI / d.z : 0.0f;
+    }
+    if (light->type == LIGHT_SPOT) {
+        const float one_minus_cos = 1.0f + light->cone_offset / light->cone_scale;
+        *direction = frame_to_world(&frame, sampling_cone(u, one_minus_cos));
+        return 2.0f * MATH_PI * one_minus_cos;
+    }
+    *direction = sampling_sphere(u);
+    return 4.0f * MATH_PI;
+}
+
+/* A ray along `direction` through the disc that one of the casters shows to it; without casters, through the
+ * one that the scene shows. Returns 1 / density per area across the direction. */
 TRIAD_FUNCTION float photon_aim_from_afar(global const PhotonFrame* f, global const Caster* casters,
                                           float3 direction, float pick, float2 u, float3* origin) {
+    const float3 centre = (float3)(f->scene_centre[0], f->scene_centre[1], f->scene_centre[2]);
+    const ShadingFrame frame = frame_make(direction);
+    if (f->casters == 0u) {
+        const float2 d = sampling_disc(u) * f->scene_radius;
+        *origin = centre + frame.x * d.x + frame.y * d.y - direction * (1.01f * f->scene_radius);
+        return MATH_PI * math_square(f->scene_radius);
+    }
     float total = 0.0f;
     for (uint i = 0u; i < f->casters; ++i) total += math_square(casters[i].radius);
     float left = pick * total;
@@ -76,7 +103,6 @@ TRIAD_FUNCTION float photon_aim_from_afar(global const PhotonFrame* f, global co
         left -= share;
     }
     const float2 d = sampling_disc(u) * casters[chosen].radius;
-    const ShadingFrame frame = frame_make(direction);
     const float3 through =
         (float3)(casters[chosen].centre[0], casters[chosen].centre[1], casters[chosen].centre[2]) +
         frame.x * d.x + frame.y * d.y;
@@ -87,7 +113,6 @@ TRIAD_FUNCTION float photon_aim_from_afar(global const PhotonFrame* f, global co
         const float3 off = math_cross(to, direction);
         hits += i != chosen && math_dot(off, off) <= math_square(casters[i].radius);
     }
-    const float3 centre = (float3)(f->scene_centre[0], f->scene_centre[1], f->scene_centre[2]);
     *origin = through - direction * (math_dot(through - centre, direction) + 1.01f * f->scene_radius);
     return MATH_PI * total / (float)hits;
 }
@@ -118,7 +143,8 @@ TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonF
         const float3 radiance = light_triangle_radiance(scene, &light, b);
         origin += (float3)(light.edge1[0], light.edge1[1], light.edge1[2]) * b.x +
                   (float3)(light.edge2[0], light.edge2[1], light.edge2[2]) * b.y;
-        const float solid_angle = photon_aim(casters, f->casters, origin, pick, aim, &direction);
+        const float solid_angle = f->casters ? photon_aim(casters, f->casters, origin, pick, aim, &direction)
+                                             : photon_aimless(&light, axis, pick, aim, &direction);
         float cosine = math_dot(axis, direction);
         if (light.flags & MATERIAL_DOUBLE_SIDED) cosine = fabs(cosine);
         origin += axis * (copysign(32.0f * 0x1.0p-23f, math_dot(axis, direction)) * max_abs3(origin));
@@ -129,7 +155,9 @@ TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonF
 #endif
 #if TRIAD_PUNCTUAL_LIGHTS
     if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT) {
-        s.power = colour * (photon_aim(casters, f->casters, origin, pick, aim, &direction) / probability);
+        const float solid_angle = f->casters ? photon_aim(casters, f->casters, origin, pick, aim, &direction)
+                                             : photon_aimless(&light, axis, pick, aim, &direction);
+        s.power = colour * (solid_angle / probability);
         if (light.type == LIGHT_SPOT)
             s.power *= math_square(
                 clamp(fma(math_dot(axis, direction), light.cone_scale, light.cone_offset), 0.0f, 1.0f));

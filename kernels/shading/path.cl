@@ -2,13 +2,14 @@
  * Unidirectional paths with next-event estimation, multiple importance sampling and Russian roulette. */
 #include "common/language.h"
 
+#include "common/film.h"
 #include "common/random.h"
 #include "shading/coverage.h"
 #include "shading/light.h"
 #include "shading/path_colour.h"
+#include "shading/photon_map.h"
 #include "shading/record.h"
 #include "shading/sample.h"
-#include "subpixel/film.h"
 #include "traversal/traverse.h"
 
 /* From here on roulette never lets a path survive for certain, so that none is endless (a ray caught in clear
@@ -45,8 +46,13 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
     int straight = 1; /* only transmissions so far: the camera looks through */
     int specular = 1; /* only delta events so far */
 #if TRIAD_PHOTONS
-    int caustic =
-        0; /* one event that is no delta event, and then delta events only: photons bring this light */
+    /* one event that is no delta event, and then delta events only: photons bring this light */
+    int caustic = 0;
+#endif
+#if PATH_GATHERS
+    const uint map_use = frame->photon_map;
+#else
+    const uint map_use = 0u;
 #endif
     float body_scale =
         1.0f; /* factor of throughput that leaving the bodies around will undo: no reason to die */
@@ -85,7 +91,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             const Colour sky = path_colour(&colours, environment_radiance(scene, -wo, &light_pdf));
             float weight = pdf > 0.0f ? power_heuristic(light_pdf / pdf) : 1.0f;
 #if TRIAD_PHOTONS
-            if (caustic && pdf == 0.0f && frame->environment.photons) weight = 0.0f;
+            if (pdf == 0.0f && (map_use ? !specular : caustic) && frame->environment.photons) weight = 0.0f;
 #endif
             const Colour found = throughput * sky * weight;
             radiance += found;
@@ -105,19 +111,14 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const uint flags = material->flags;
         const int back = math_dot(wo, s.geometric_normal) < 0.0f;
         const float3 ng = back ? -s.geometric_normal : s.geometric_normal;
+        const VertexBodies around = vertex_bodies(scene, &s, back, bodies);
+        bodies = around.here;
+        const Bodies beyond = around.beyond;
 #if TRIAD_TRANSMISSION
-        /* the bodies on this side of a body's surface and on the other: itself, and one that touches it */
-        const uint solid = flags & MATERIAL_SOLID ? s.material : TRIAD_NONE;
-        const uint touching = solid == TRIAD_NONE ? TRIAD_NONE : s.touching;
-        const uint inner = back ? solid : touching, outer = back ? touching : solid;
-        bodies = bodies_proved(scene, bodies, inner);
-        const Bodies beyond = bodies_beyond(scene, bodies, inner, outer);
         if (bodies.s0 != TRIAD_NONE)
             throughput *=
                 path_transmittance(&colours, scene->materials + bodies.s0, math_length(s.position - from));
         from = s.position;
-#else
-        const Bodies beyond = bodies;
 #endif
 #if TRIAD_UNLIT
         if (flags &
@@ -137,7 +138,8 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             global const Light* found_light =
                 scene->lights + first_light + hit.primitive - scene->geometries[s.geometry].first_triangle;
 #if TRIAD_PHOTONS
-            if (caustic && pdf == 0.0f && (found_light->flags & LIGHT_PHOTONS)) weight = 0.0f;
+            if (pdf == 0.0f && (map_use ? !specular : caustic) && (found_light->flags & LIGHT_PHOTONS))
+                weight = 0.0f;
 #endif
             if (pdf > 0.0f) {
                 const Light light = *found_light;
@@ -161,9 +163,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         }
 
 #if TRIAD_DISPERSION && TRIAD_TRANSMISSION
-        /* a surface that tells wavelengths apart */
-        const int disperses = solid != TRIAD_NONE && s.transmission > 0.0f && s.metallic < 1.0f &&
-                              (bodies_disperse(scene, bodies) || bodies_disperse(scene, beyond));
+        const int disperses = vertex_disperses(scene, &s, &around);
 #if !TRIAD_HERO
         if (disperses && colours.wavelength == 0.0f)
             path_draw_wavelength(&colours, scene, sampler, &radiance);
@@ -181,7 +181,16 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         }
 #endif
 
+#if PATH_GATHERS
+        /* the photons here bring all light, also what light sampling would */
+        const int ends_in_map = map_use == PHOTON_MAP_FINAL_GATHER && !specular;
+        if (map_use && bsdf_has_smooth(&bsdf))
+            radiance +=
+                throughput * path_gather(scene, &s, ng, &vertex, edge, specular, path_wavelength(&colours));
+        if (frame->light_count != 0u && !ends_in_map && bsdf_has_smooth(&bsdf)) {
+#else
         if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
+#endif
             LightSample light;
             if (light_sample(scene, s.position, u.x.s2, (uint2)(u.x.s3, u.y.s3), &light)) {
                 const float side = math_dot(light.direction, ng);
@@ -223,6 +232,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                                                          : vertex_spawn_to(&s, away, &hit, light.target);
                         ++tally->rays;
                         if (!traverse_occluded(&traversal, shadow) && light_complete(scene, &light)) {
+#if PATH_GATHERS
+                            if (map_use == PHOTON_MAP_VISUALISED) bsdf_pdf = 0.0f; /* no path goes there */
+#endif
                             direct *= path_light(scene, &colours, light.flags, light.weight) *
                                       power_heuristic(bsdf_pdf * light.inverse_pdf);
                             radiance += direct;
@@ -238,6 +250,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
         const BsdfSample sample = bsdf_sample(&bsdf, wo_local, random_float(u.x.s1),
                                               (float2)(random_float(u.x.s0), random_float(u.y.s0)));
         if (sample.event == BSDF_NONE) break;
+#if PATH_GATHERS
+        if ((ends_in_map || map_use == PHOTON_MAP_VISUALISED) && !(sample.event & BSDF_DELTA)) break;
+#endif
         const float3 direction = frame_to_world(&vertex.frame, sample.wi);
         const float side = math_dot(direction, ng);
         if (!(side * sample.wi.z > 0.0f)) break;

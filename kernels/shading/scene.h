@@ -33,6 +33,9 @@ typedef struct Scene {
     global const Spectrum* spectrum;
     global const float* indices;    /* tables of (n, its change to the next row), SPECTRUM_ROWS each */
     global const float* ray_filter; /* tables of shape frame->ray_filter */
+    global const PhotonMap* photon_map;
+    global const Photon* photons;   /* bucket by bucket */
+    global const uint* photon_ends; /* of the buckets */
 } Scene;
 
 #define SCENE_PARAMETERS                                                                                    \
@@ -44,12 +47,13 @@ typedef struct Scene {
         global const float *srgb, global const float *albedo, global const Light *lights,                   \
         global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,           \
         global const ushort *env_columns, global const float *env_cosines, global const Spectrum *spectrum, \
-        global const float *indices, global const float *ray_filter
+        global const float *indices, global const float *ray_filter, global const PhotonMap *photon_map,    \
+        global const Photon *photons, global const uint *photon_ends
 
 #define SCENE_ARGUMENTS                                                                                     \
     frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials,     \
         texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows, env_columns, \
-        env_cosines, spectrum, indices, ray_filter
+        env_cosines, spectrum, indices, ray_filter, photon_map, photons, photon_ends
 #define SCENE_FROM_PARAMETERS \
     { SCENE_ARGUMENTS }
 

@@ -98,6 +98,36 @@ TRIAD_FUNCTION int bodies_disperse(const Scene* scene, Bodies b) {
 #endif
 #endif
 
+/* The bodies on the side of a surface that a path comes from, and those on the other. */
+typedef struct VertexBodies {
+    Bodies here, beyond;
+} VertexBodies;
+
+/* bodies: what the path is thought to be in; back: it meets the inner side. */
+TRIAD_FUNCTION VertexBodies vertex_bodies(const Scene* scene, const Surface* s, int back, Bodies bodies) {
+    VertexBodies v;
+#if TRIAD_TRANSMISSION
+    /* the body of the surface, and one that touches it */
+    const uint solid = scene->materials[s->material].flags & MATERIAL_SOLID ? s->material : TRIAD_NONE;
+    const uint touching = solid == TRIAD_NONE ? TRIAD_NONE : s->touching;
+    const uint inner = back ? solid : touching, outer = back ? touching : solid;
+    v.here = bodies_proved(scene, bodies, inner);
+    v.beyond = bodies_beyond(scene, v.here, inner, outer);
+#else
+    (void)scene, (void)s, (void)back;
+    v.here = v.beyond = bodies;
+#endif
+    return v;
+}
+
+#if TRIAD_DISPERSION && TRIAD_TRANSMISSION
+/* Whether the surface tells wavelengths apart. */
+TRIAD_FUNCTION int vertex_disperses(const Scene* scene, const Surface* s, const VertexBodies* v) {
+    return scene->materials[s->material].flags & MATERIAL_SOLID && s->transmission > 0.0f &&
+           s->metallic < 1.0f && (bodies_disperse(scene, v->here) || bodies_disperse(scene, v->beyond));
+}
+#endif
+
 /* The local frame's normal: the shading normal on the side of wo. `mirror` is the share of the material that
  * has microfacets alone (metal, glass): theirs is turned towards the geometric normal (on wo's side) just so
  * far that the mirror direction of wo leaves the surface, else they would be black where a normal map or

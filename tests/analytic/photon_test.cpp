@@ -51,7 +51,7 @@ TileMeans render(Scene scene, RenderSettings settings, std::uint32_t first_seed,
     for (unsigned k = 0; k < films; ++k) {
         settings.seed = first_seed + k;
         Renderer renderer(test_device(), scene, settings);
-        EXPECT_EQ(renderer.photons() > 0, settings.integrator == Integrator::photons);
+        EXPECT_EQ(renderer.photons() > 0, settings.integrator != Integrator::path);
         renderer.render({0, spp}, [](const Progress&) { return true; });
         const Film film = renderer.film();
         EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);
@@ -61,14 +61,16 @@ TileMeans render(Scene scene, RenderSettings settings, std::uint32_t first_seed,
 }
 
 void expect_same_picture(const Scene& scene, const std::function<void(RenderSettings&)>& change = {}) {
-    TileMeans means[2];
-    for (const bool photons : {false, true}) {
-        RenderSettings settings = settings_of(photons ? Integrator::photons : Integrator::path);
+    const auto means = [&](Integrator integrator, std::uint32_t seed, unsigned spp) {
+        RenderSettings settings = settings_of(integrator);
         if (change) change(settings);
-        means[photons] = render(scene, settings, photons ? 100 : 1, photons ? 128 : 768);
+        return render(scene, settings, seed, spp);
+    };
+    const TileMeans paths = means(Integrator::path, 1, 768);
+    for (const Integrator integrator : {Integrator::light, Integrator::photons}) {
+        const MeanTest test = test_means(means(integrator, 100, 128), paths);
+        EXPECT_TRUE(test.same) << test.sentence;
     }
-    const MeanTest test = test_means(means[1], means[0]);
-    EXPECT_TRUE(test.same) << test.sentence;
 }
 
 Scene with_square_light() {
@@ -99,6 +101,17 @@ TEST(Photons, glass_that_disperses_throws_the_colours_that_paths_find) {
     b.add(shapes::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), lambert(0.7f));
     b.add(shapes::box({-0.7f, 0.5f, -0.4f}, {0.7f, 1.1f, 0.4f}), prism);
     b.add(shapes::lat_long_sphere({0.2f, 0.4f, 0.9f}, 0.3f, 24, 12), prism);
+    b.add(shapes::quad({-0.6f, 2.2f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}), emitter(6.0f));
+    expect_same_picture(b.scene);
+}
+
+TEST(Photons, colours_that_glass_throws_are_the_same_seen_through_more_of_it) {
+    Builder b;
+    Material prism = glass(1.6f);
+    prism.dispersion = find_glass("SF10");
+    b.add(shapes::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), lambert(0.7f));
+    b.add(shapes::box({-0.9f, 0.5f, -0.4f}, {0.9f, 1.1f, 0.4f}), prism);
+    b.add(shapes::box({-3, 0.1f, 2.2f}, {3, 3, 2.5f}), prism);  // before the camera
     b.add(shapes::quad({-0.6f, 2.2f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}), emitter(6.0f));
     expect_same_picture(b.scene);
 }
@@ -173,6 +186,35 @@ TEST(Photons, a_point_light_and_its_image_in_a_mirror_follow_the_inverse_square)
     const double d2 = 0.3 * 0.3 + 1.5 * 1.5 + 0.2 * 0.2;
     const double direct = 0.5 / pi * 5 * 1.5 / std::pow(d2, 1.5) * (1 - d2 * d2 / 16);
     EXPECT_NEAR(mean_of_seeds(light), direct, 0.003 * direct);
+}
+
+/// The floor in a mirror on the ceiling: no path finds the light that comes to it from either mirror.
+TEST(Photons, a_point_light_and_its_three_images_light_what_is_seen_in_a_mirror) {
+    Builder b;
+    b.add(shapes::quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), lambert(0.002f));  // dark: no light goes round
+    b.add(shapes::quad({1, -1, 2}, {0, 0, -4}, {0, 4, 0}), smooth_metal());
+    b.add(shapes::quad({-3, 2, -2}, {4, 0, 0}, {0, 0, 4}), smooth_metal());
+    PunctualLight light;
+    light.position = {0.3, 1.5, 0.2};
+    light.colour = vec3(5.0f);
+    b.scene.lights.push_back(light);
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.integrator = Integrator::automatic;
+    settings.photons = 1 << 15;
+    settings.view = look_at({0, 1, 0}, {0, 2, 0}, 0.02, 1.0);
+    double expected = 0, sum = 0;
+    for (const double x : {0.3, 1.7})
+        for (const double y : {1.5, 2.5})
+            expected += 0.002 / pi * 5 * y / std::pow(x * x + y * y + 0.2 * 0.2, 1.5);
+    const Scene scene = b.scene;
+    for (settings.seed = 0; settings.seed < 4; ++settings.seed) {
+        Renderer renderer(test_device(), scene, settings);
+        renderer.render({0, 64}, [](const Progress&) { return true; });
+        const Film film = renderer.film();
+        for (std::size_t p = 0; p < film.pixels(); ++p) sum += pixel_mean(film, p)[1];
+    }
+    EXPECT_NEAR(sum / (4 * 64), expected, 0.003 * expected);
 }
 
 TEST(Photons, sunlight_comes_from_a_mirror_as_strong_as_from_the_sun) {

@@ -50,7 +50,7 @@ const Fault faults[] = {
      "M9"},
     {"cones_by_a_difference_of_cosines", "common/sampling.h", "sin2 / (1.0f + math_sqrt(1.0f - sin2))",
      "1.0f - math_sqrt(1.0f - sin2)", "C13"},
-    {"film_through_32_bits", "subpixel/film.h", "return (long)(", "return (int)(", "C17b"},
+    {"film_through_32_bits", "common/film.h", "return (long)(", "return (int)(", "C17b"},
 };
 
 std::string text_of(const fs::path& path) {
@@ -131,7 +131,7 @@ TEST(Simulator, sees_a_read_out_of_bounds_that_changes_no_value) {
 TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {
     if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
     EXPECT_EQ(oclgrind("--data-races", fs::path(TRIAD_SOURCE_DIR) / "kernels", "R1"), "");
-    const FaultyKernels kernels("subpixel/film.h", "atomic_add(counters + 2u * which, amount)",
+    const FaultyKernels kernels("common/film.h", "atomic_add(counters + 2u * which, amount)",
                                 "(counters[2u * which] += amount) - amount");
     ASSERT_TRUE(kernels.found_once);
     EXPECT_NE(oclgrind("--data-races", kernels.folder, "R1").find("data race"), std::string::npos);

@@ -1,7 +1,7 @@
 /* The film: order-free sums in 64-bit fixed point. One work-item owns a pixel during a launch, so no atomics.
  */
-#ifndef TRIAD_SUBPIXEL_FILM_H
-#define TRIAD_SUBPIXEL_FILM_H
+#ifndef TRIAD_COMMON_FILM_H
+#define TRIAD_COMMON_FILM_H
 
 #include "common/language.h"
 #include "common/math.h"

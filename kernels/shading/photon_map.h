@@ -1,0 +1,186 @@
+/* The photon map (Jensen 1996, "Global Illumination using Photon Maps"): photons in the buckets of a hash
+ * grid, gathered around a point with a shrinking radius (Knaus and Zwicker 2011, "Progressive Photon Mapping:
+ * A Probabilistic Approach"). Sums are in fixed point: the order of the photons in a bucket, which no device
+ * promises, changes no bit. */
+#ifndef TRIAD_SHADING_PHOTON_MAP_H
+#define TRIAD_SHADING_PHOTON_MAP_H
+
+#include "common/film.h"
+#include "shading/vertex_bsdf.h"
+
+/* Photons whose surface is turned further from the point's than this do not lie on it: cosine. */
+#define PHOTON_SAME_SURFACE 0.9f
+/* Nor do those that lie higher above it than this, in radii. */
+#define PHOTON_SAME_HEIGHT 0.25f
+/* Wavelengths are kept in 16 bits; 0 stands for all of them together. */
+#define PHOTON_WAVELENGTH_STEP ((SPECTRUM_ROWS - 1) * SPECTRUM_STEP / 65534.0f)
+
+/* A unit vector in 2 * `bits` bits: octahedral (Cigolle et al. 2014, "A Survey of Efficient Representations
+ * for Independent Unit Vectors"). */
+TRIAD_FUNCTION uint photon_pack_direction(float3 d, uint bits) {
+    const float scale = 1.0f / (fabs(d.x) + fabs(d.y) + fabs(d.z));
+    float x = d.x * scale, y = d.y * scale;
+    if (d.z < 0.0f) {
+        const float folded = copysign(1.0f - fabs(y), x);
+        y = copysign(1.0f - fabs(x), y);
+        x = folded;
+    }
+    const float most = (float)((1u << bits) - 1u);
+    return convert_uint(fma(fma(x, 0.5f, 0.5f), most, 0.5f)) |
+           convert_uint(fma(fma(y, 0.5f, 0.5f), most, 0.5f)) << bits;
+}
+TRIAD_FUNCTION float3 photon_unpack_direction(uint packed, uint bits) {
+    const uint most = (1u << bits) - 1u;
+    const float scale = 2.0f / (float)most;
+    float x = fma(convert_float(packed & most), scale, -1.0f),
+          y = fma(convert_float((packed >> bits) & most), scale, -1.0f);
+    const float z = 1.0f - fabs(x) - fabs(y);
+    if (z < 0.0f) {
+        const float unfolded = copysign(1.0f - fabs(y), x);
+        y = copysign(1.0f - fabs(x), y);
+        x = unfolded;
+    }
+    return math_normalize((float3)(x, y, z));
+}
+
+/* Edges of a photon's way, as they are kept: more are as many. */
+#define PHOTON_EDGES 127u
+#define PHOTON_BY_MIRRORS_AND_GLASS 128u
+
+/* from: the direction that it came from; normal: of the surface, on that side; edges of its way; caustic: by
+ * mirrors and glass alone, at least one; wavelength in nm or 0. */
+TRIAD_FUNCTION Photon photon_make(float3 position, float3 power, float3 from, float3 normal, uint edges,
+                                  int caustic, float wavelength) {
+    Photon p;
+    p.position[0] = position.x, p.position[1] = position.y, p.position[2] = position.z;
+    p.power[0] = power.x, p.power[1] = power.y, p.power[2] = power.z;
+    p.direction = photon_pack_direction(from, 12u) << 8 | (caustic ? PHOTON_BY_MIRRORS_AND_GLASS : 0u) |
+                  min(edges, PHOTON_EDGES);
+    p.normal = photon_pack_direction(normal, 8u) << 16;
+    if (wavelength > 0.0f)
+        p.normal |= convert_uint(
+            fma(clamp(wavelength - SPECTRUM_FIRST, 0.0f, (float)(SPECTRUM_ROWS - 1) * SPECTRUM_STEP),
+                1.0f / PHOTON_WAVELENGTH_STEP, 1.5f));
+    return p;
+}
+TRIAD_FUNCTION float3 photon_from(const Photon* p) { return photon_unpack_direction(p->direction >> 8, 12u); }
+TRIAD_FUNCTION float3 photon_normal(const Photon* p) { return photon_unpack_direction(p->normal >> 16, 8u); }
+TRIAD_FUNCTION uint photon_edges(const Photon* p) { return p->direction & PHOTON_EDGES; }
+TRIAD_FUNCTION int photon_is_caustic(const Photon* p) {
+    return (p->direction & PHOTON_BY_MIRRORS_AND_GLASS) != 0u;
+}
+TRIAD_FUNCTION float photon_wavelength(const Photon* p) {
+    const uint step = p->normal & 0xffffu;
+    return step == 0u ? 0.0f : fma(convert_float(step - 1u), PHOTON_WAVELENGTH_STEP, SPECTRUM_FIRST);
+}
+
+/* ---- The grid ---- */
+
+TRIAD_FUNCTION int3 photon_cell(const PhotonMap* map, float3 p) {
+    return convert_int3_sat(floor(p * map->cells_per_unit));
+}
+/* The bucket of a cell. The eight cells of any 2 x 2 x 2 block have eight buckets: the low bits tell them
+ * apart, and none is searched twice. The hash is Teschner et al.'s (2003). */
+TRIAD_FUNCTION uint photon_bucket(const PhotonMap* map, int3 cell) {
+    const uint3 c = as_uint3(cell), block = as_uint3(cell >> 1);
+    const uint hash = block.x * 73856093u ^ block.y * 19349663u ^ block.z * 83492791u;
+    return (hash << 3 | (c.z & 1u) << 2 | (c.y & 1u) << 1 | (c.x & 1u)) & map->bucket_mask;
+}
+
+/* ---- What paths find in it: photons carry RGB or one wavelength, as they do ---- */
+
+#define PATH_GATHERS (TRIAD_GATHER && !TRIAD_HERO)
+#if PATH_GATHERS
+
+/* Which photons are gathered. */
+#define PHOTON_ANY 0u
+#define PHOTON_CAUSTIC 1u
+#define PHOTON_INDIRECT 2u /* that were reflected or refracted at all */
+
+typedef struct PhotonQuery {
+    float3 position, normal; /* of the surface, on the side of the path */
+    uint most_edges;         /* of a photon's way; 0: no limit */
+    uint which;
+    float radius;     /* at most the map's */
+    float wavelength; /* of the path, in nm; 0: all together */
+} PhotonQuery;
+
+/* What a photon adds to the radiance towards the path, in units of the film; its share of the kernel is
+ * Epanechnikov's. */
+TRIAD_FUNCTION void photon_add(const Scene* scene, const PhotonMap* map, const PhotonQuery* query,
+                               const VertexBsdf* v, global const Photon* stored, long* sums) {
+    const float3 off = vload3(0, stored->position) - query->position;
+    const float distance2 = math_dot(off, off) * (1.0f / (query->radius * query->radius));
+    if (!(distance2 < 1.0f)) return;
+    const Photon photon = *stored;
+    const float3 normal = photon_normal(&photon);
+    if (!(fabs(math_dot(normal, query->normal)) > PHOTON_SAME_SURFACE &&
+          fabs(math_dot(off, query->normal)) < PHOTON_SAME_HEIGHT * query->radius))
+        return;
+    if (query->which != PHOTON_ANY &&
+        !(query->which == PHOTON_CAUSTIC ? photon_is_caustic(&photon) : photon_edges(&photon) > 1u))
+        return;
+    if (query->most_edges != 0u && photon_edges(&photon) > query->most_edges) return;
+    float3 power =
+        vload3(0, photon.power) * (fma(-2.0f, distance2, 2.0f) / (MATH_PI * math_square(query->radius)));
+#if TRIAD_DISPERSION
+    const float wavelength = photon_wavelength(&photon);
+    if (wavelength > 0.0f && query->wavelength > 0.0f) {
+        if (!(fabs(wavelength - query->wavelength) < map->wavelengths)) return;
+        power *= 0.5f / map->wavelengths;
+    } else if (wavelength > 0.0f) {
+        power *= spectrum_filter(scene->spectrum, wavelength);
+    }
+#endif
+    const float3 from = photon_from(&photon);
+    const float3 wi = frame_to_local(&v->frame, from);
+    const float lit = math_dot(normal, query->normal) > 0.0f ? 1.0f : -1.0f;
+    if (!(wi.z * lit > 0.0f)) return; /* light must not go through by the shading normal */
+    float pdf;
+    const float3 value = bsdf_eval(&v->bsdf, v->wo, wi, &pdf) * power;
+    if (!film_is_finite((float4)(value, 0.0f))) return;
+    uint saturated = 0u;
+    sums[0] = add_sat(sums[0], film_fixed(value.x, scene->frame->quanta, &saturated));
+    sums[1] = add_sat(sums[1], film_fixed(value.y, scene->frame->quanta, &saturated));
+    sums[2] = add_sat(sums[2], film_fixed(value.z, scene->frame->quanta, &saturated));
+}
+
+/* Radiance that the photons around a point send along the path. */
+TRIAD_FUNCTION_ONCE float3 photon_gather(const Scene* scene, const PhotonQuery* query, const VertexBsdf* v) {
+    const PhotonMap map = *scene->photon_map;
+    const int3 low = photon_cell(&map, query->position - query->radius),
+               high = photon_cell(&map, query->position + query->radius);
+    long sums[3] = {0, 0, 0};
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) {
+                const uint bucket = photon_bucket(&map, (int3)(x, y, z));
+                const uint end = scene->photon_ends[bucket];
+                for (uint i = bucket == 0u ? 0u : scene->photon_ends[bucket - 1u]; i < end; ++i)
+                    photon_add(scene, &map, query, v, scene->photons + i, sums);
+            }
+    return (float3)(convert_float(sums[0]), convert_float(sums[1]), convert_float(sums[2])) *
+           (1.0f / scene->frame->quanta);
+}
+
+/* Of a path, at the end of its edge-th edge: specular: mirrors and glass alone so far. */
+TRIAD_FUNCTION float3 path_gather(const Scene* scene, const Surface* s, float3 ng, const VertexBsdf* v,
+                                  uint edge, int specular, float wavelength) {
+    global const Frame* frame = scene->frame;
+    const uint use = frame->photon_map;
+    if (use == PHOTON_MAP_PROGRESSIVE && edge == 1u) return (float3)(0.0f); /* splatted: photon/photon.cl */
+    PhotonQuery q;
+    q.position = s->position;
+    q.normal = ng;
+    q.most_edges = frame->max_depth == 0u ? 0u : frame->max_depth - edge;
+    q.which = use == PHOTON_MAP_VISUALISED                  ? PHOTON_INDIRECT
+              : use == PHOTON_MAP_FINAL_GATHER && !specular ? PHOTON_ANY
+                                                            : PHOTON_CAUSTIC;
+    q.radius = use == PHOTON_MAP_FINAL_GATHER && specular ? scene->photon_map->caustic_radius
+                                                          : scene->photon_map->radius;
+    q.wavelength = wavelength;
+    return photon_gather(scene, &q, v);
+}
+
+#endif
+#endif
