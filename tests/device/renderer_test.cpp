@@ -55,11 +55,37 @@ TEST(Renderer, wavelengths_change_no_bit_where_nothing_disperses) {
     Scene dispersive = scene;
     for (Material& m : dispersive.materials)
         if (m.transmission > 0) m.dispersion = Dispersion{Dispersion::Law::cauchy, 0, {1.4, 0.03}, {}};
-    EXPECT_FALSE(features_of(scene, settings, PackedScene{}).dispersion) << "the same program, so the same speed";
+    EXPECT_FALSE(features_of(scene, settings, PackedScene{}).dispersion)
+        << "the same program, so the same speed";
     expect_same_bytes(off, film(dispersive, Spectral::off, Features{}), "dispersion turned off");
     expect_same_bytes(film(dispersive, Spectral::automatic, {}),
                       film(dispersive, Spectral::automatic, Features{}), "specialised and general");
     EXPECT_NE(off.sums, film(dispersive, Spectral::automatic, {}).sums);
+}
+
+TEST(Renderer, spectra_of_lights_are_their_colours_until_something_disperses) {
+    const Scene white = varied_scene();
+    Scene lit = white;
+    const LightSpectrum lines{LightSpectrum::Law::lines, 0, {{450, 1}, {589.3, 2}}};
+    for (Material& m : lit.materials)
+        if (m.emission != vec3(0.0f)) m.emission_spectrum = lines;
+    for (PunctualLight& l : lit.lights) l.spectrum = lines;
+    Scene dispersive = lit;
+    for (Material& m : dispersive.materials)
+        if (m.transmission > 0) m.dispersion = Dispersion{Dispersion::Law::cauchy, 0, {1.4, 0.03}, {}};
+    RenderSettings settings = analytic::varied_settings();
+    const auto film = [&](const Scene& of, Spectral spectral, const std::optional<Features>& features) {
+        settings.spectral = spectral;
+        return picture_case::render(test_device(), of, settings, {{0, 4}}, features);
+    };
+    const Film off = film(lit, Spectral::off, {});
+    EXPECT_NE(off.sums, film(white, Spectral::off, {}).sums);
+    expect_same_bytes(off, film(lit, Spectral::automatic, {}), "auto");
+    expect_same_bytes(off, film(lit, Spectral::automatic, Features{}), "auto, everything compiled in");
+    expect_same_bytes(off, film(dispersive, Spectral::off, {}), "dispersion turned off");
+    for (const Spectral spectral : {Spectral::automatic, Spectral::full, Spectral::classic})
+        expect_same_bytes(film(dispersive, spectral, {}), film(dispersive, spectral, Features{}),
+                          "specialised and general");
 }
 
 TEST(Renderer, begins_again_with_another_seed_as_a_new_one_would) {

@@ -180,14 +180,16 @@ TEST(GltfFuzz, no_file_of_the_large_corpus_crashes_hangs_or_fills_the_memory) {
 /// extensions.
 std::string seed_scene() {
     return R"({"asset":{"version":"2.0"},"scene":0,"extensionsUsed":["KHR_lights_punctual","KHR_materials_ior"],
-"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"spot":{"outerConeAngle":0.7}}]}},
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"spot":{"outerConeAngle":0.7},
+"extras":{"triad":{"spectrum":{"lines":[[450,1],[532,0.5]]}}}}]}},
 "scenes":[{"nodes":[0,2]}],"nodes":[{"mesh":0,"children":[1],"rotation":[0,0,0,1]},{"camera":0,"translation":[0,0,3]},
 {"extensions":{"KHR_lights_punctual":{"light":0}},"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,2,0,1]}],
 "cameras":[{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}}],
 "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,1]},"extensions":{"KHR_materials_ior":{"ior":1.4},
 "KHR_materials_dispersion":{"dispersion":0.3},"KHR_materials_transmission":{"transmissionFactor":1},
 "KHR_materials_volume":{"thicknessFactor":1}},
-"extras":{"triad":{"sellmeier":{"B":[1,0.2],"C":[0.01,0.02]},"priority":2}}}],
+"emissiveFactor":[1,1,1],"extras":{"triad":{"sellmeier":{"B":[1,0.2],"C":[0.01,0.02]},"priority":2,
+"spectrum":{"blackbody":3000}}}}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0,"mode":4}]}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,
 "componentType":5121},"values":{"bufferView":0,"byteOffset":12}}},{"bufferView":1,"byteOffset":0,"componentType":5121,"count":3,
