@@ -103,6 +103,9 @@ TEST(Photons, glass_that_disperses_throws_the_colours_that_paths_find) {
     b.add(shapes::lat_long_sphere({0.2f, 0.4f, 0.9f}, 0.3f, 24, 12), prism);
     b.add(shapes::quad({-0.6f, 2.2f, -0.6f}, {1.2f, 0, 0}, {0, 0, 1.2f}), emitter(6.0f));
     expect_same_picture(b.scene);
+    b.scene.materials.back().emission_spectrum =
+        LightSpectrum{LightSpectrum::Law::lines, 0, {{450, 1}, {540, 1}, {620, 2}}};
+    expect_same_picture(b.scene);
 }
 
 TEST(Photons, colours_that_glass_throws_are_the_same_seen_through_more_of_it) {
