@@ -405,7 +405,7 @@ typedef struct PhotonMap {
     float cells_per_unit; /* 1 / side of a cell, which is wider than the sphere */
     uint bucket_mask;     /* buckets - 1: a power of two */
     float wavelengths;    /* nm: light of one wavelength is gathered from photons within this of it */
-    float caustic_radius; /* of PHOTON_MAP_FINAL_GATHER at the first surface */
+    float sharp_radius;   /* the same where the camera looks by mirrors and glass alone */
 } PhotonMap;
 TRIAD_SIZE(PhotonMap, 20);
 

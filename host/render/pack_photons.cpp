@@ -13,6 +13,9 @@ namespace {
 constexpr double smooth_alpha = 1e-3, same_index = 1e-2;
 /// Largest radius of a light over its distance to a caster that paths find too seldom to go without photons.
 constexpr double small_light = 0.2;
+/// The same for a light that sends the casters more than this share of all directions: a lamp in a closed
+/// room, whose caustics light everything else.
+constexpr double near_light = 0.5, near_share = 0.05;
 /// Share of the map's light in directions that are drawn this many times more often than evenly: a sun.
 constexpr double sun_share = 0.1, sun_density = 1000;
 /// The first radius of gathering: in pixels, as the nearest caster is seen, and such that so many photons
@@ -22,8 +25,9 @@ constexpr double first_pixels = 2, first_photons = 32, most_radius = 0.05;
 constexpr double shrinking = 2.0 / 3.0;
 /// Of the extent of the scene: below it, single precision cannot tell places apart.
 constexpr double least_radius = 1e-5;
-/// Photons in the radius of the classic map, if they were spread over the walls of a box around the scene.
-constexpr double mapped_photons = 100;
+/// Photons in the sharp radius of the classic map, if they were spread over the walls of a box around the
+/// scene.
+constexpr double mapped_photons = 6;
 
 /// Smallest value of a channel of an 8- or 16-bit texture; 1 without one.
 double least_of(const Scene& scene, const std::optional<TextureUse>& use, unsigned channel) {
@@ -163,7 +167,8 @@ std::vector<bool> small_triangle_lights(const PackedScene& packed) {
             distance = std::min(
                 distance,
                 glm::length(dvec3(c.centre[0], c.centre[1], c.centre[2]) - light.centre()) - c.radius);
-        if (light.radius() < small_light * distance)
+        const bool near = share_from(packed.casters, light.centre()) > near_share;
+        if (light.radius() < (near ? near_light : small_light) * distance)
             for (std::size_t i = first; i < end; ++i) small[i] = true;
     }
     return small;

@@ -9,11 +9,12 @@ namespace {
 /// nm: half the width in which light of one wavelength is gathered with the first sample. It shrinks as the
 /// radius does.
 constexpr double first_wavelengths = 10;
-/// Radius for light by mirrors and glass alone, over that for all light, in the classic map.
-constexpr double caustic_share = 0.25;
-
 /// Watchdogs and PoCL (largest_launch) want short launches.
 constexpr std::size_t most_items = largest_launch * FILM_TILE_PIXELS;
+/// After an event that blurs, the radius is wider by this: what comes of it is not seen sharply.
+constexpr double blurred_radius = 2.5;
+/// The same in the classic map.
+constexpr double classic_blurred_radius = 4;
 
 }  // namespace
 
@@ -78,8 +79,8 @@ void Renderer::State::launch_photons(std::uint64_t sample, std::uint64_t count) 
     if (!map) return;
     const double radius = photon_radius(packed, settings, frame, sample);
     dev::PhotonMap shape{};
-    shape.radius = float(radius);
-    shape.caustic_radius = float(caustic_share * radius);
+    shape.radius = float(radius * (is_classic() ? classic_blurred_radius : blurred_radius));
+    shape.sharp_radius = float(radius);
     shape.wavelengths = float(first_wavelengths * radius / photon_radius(packed, settings, frame, 0));
     map.sort(shape, count);
 }

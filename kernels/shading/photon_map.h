@@ -176,8 +176,8 @@ TRIAD_FUNCTION float3 path_gather(const Scene* scene, const Surface* s, float3 n
     q.which = use == PHOTON_MAP_VISUALISED                  ? PHOTON_INDIRECT
               : use == PHOTON_MAP_FINAL_GATHER && !specular ? PHOTON_ANY
                                                             : PHOTON_CAUSTIC;
-    q.radius = use == PHOTON_MAP_FINAL_GATHER && specular ? scene->photon_map->caustic_radius
-                                                          : scene->photon_map->radius;
+    q.radius = specular && use != PHOTON_MAP_VISUALISED ? scene->photon_map->sharp_radius
+                                                        : scene->photon_map->radius;
     q.wavelength = wavelength;
     return photon_gather(scene, &q, v);
 }

@@ -229,6 +229,33 @@ TEST(Photons, sunlight_comes_from_a_mirror_as_strong_as_from_the_sun) {
     EXPECT_NEAR(mean_of_seeds(light), expected, 0.003 * expected);
 }
 
+/// Mean of the picture's green channel.
+double brightness(const Scene& unchecked, const RenderSettings& settings, unsigned spp) {
+    Scene scene = unchecked;
+    validate(scene);
+    Renderer renderer(test_device(), scene, settings);
+    renderer.render({0, spp}, [](const Progress&) { return true; });
+    const Film film = renderer.film();
+    double sum = 0;
+    for (std::size_t p = 0; p < film.pixels(); ++p) sum += pixel_mean(film, p)[1];
+    return sum / double(film.pixels());
+}
+
+TEST(Photons, the_classic_map_is_as_bright_as_paths_but_for_its_blur) {
+    Builder b = casters();
+    Material wall = lambert(0.5f);
+    wall.double_sided = true;
+    b.add(shapes::box({-2.2f, -0.2f, -2}, {2.2f, 3.2f, 4}), wall);
+    b.add(shapes::quad({-0.8f, 2.5f, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}), emitter(4.0f));
+    const double by_paths = brightness(b.scene, settings_of(Integrator::path), 256);
+    RenderSettings classic = settings_of(Integrator::photon_map);
+    classic.photons = 400000;
+    for (const bool final_gather : {true, false}) {
+        classic.final_gather = final_gather;
+        EXPECT_NEAR(brightness(b.scene, classic, 32), by_paths, 0.02 * by_paths) << final_gather;
+    }
+}
+
 TEST(Photons, parts_sizes_and_threads_change_no_bit) {
     Scene scene = with_square_light();
     validate(scene);
