@@ -32,18 +32,6 @@ inline RgbImage load(const std::string& name) {
     return image;
 }
 
-/// Means of blocks of width x height samples.
-inline RgbImage shrunk(const RgbImage& image, unsigned width, unsigned height) {
-    RgbImage small{image.width / width, image.height / height, {}};
-    small.rgb.resize(std::size_t(small.width) * small.height * 3);
-    for (unsigned y = 0; y < small.height * height; ++y)
-        for (unsigned x = 0; x < small.width * width; ++x)
-            for (unsigned c = 0; c < 3; ++c)
-                small.rgb[(std::size_t(y / height) * small.width + x / width) * 3 + c] +=
-                    image.rgb[(std::size_t(y) * image.width + x) * 3 + c] / float(width * height);
-    return small;
-}
-
 /// How a picture goes on beyond its border.
 enum class Beyond { mirrored, again };
 
@@ -52,8 +40,7 @@ inline RgbImage filtered(const RgbImage& bins, const TapTable& table, Beyond bey
     RgbImage drives{bins.width / table.bins_x, bins.height / table.bins_y, {}};
     drives.rgb.resize(std::size_t(drives.width) * drives.height * 3);
     const auto mirror = [beyond](int i, unsigned n) {
-        const int period = (beyond == Beyond::again ? 1 : 2) * int(n), m = (i % period + period) % period;
-        return unsigned(m < int(n) ? m : period - 1 - m);
+        return beyond == Beyond::again ? unsigned((i % int(n) + int(n)) % int(n)) : mirrored_index(i, n);
     };
     for (unsigned y = 0; y < drives.height; ++y)
         for (unsigned x = 0; x < drives.width; ++x)

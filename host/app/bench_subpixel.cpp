@@ -27,10 +27,11 @@ constexpr double usual_ppd = 45;
 
 struct SubpixelOptions {
     std::vector<std::string> scenes;
-    std::string panel = "rgb", size = "96x64", synthetic, device, folder, csv, json;
+    std::vector<std::string> panels = {"rgb"};
+    std::vector<double> ppd;
+    std::string size = "96x64", synthetic, device, folder, csv, json;
     std::vector<unsigned> rays = {9, 36, 144};
-    std::optional<double> ppd;
-    unsigned repetitions = 2, samples = 6, reference_spp = 64, synthetic_samples = 12;
+    unsigned repetitions = 2, samples = 6, reference_spp = 256, synthetic_samples = 12;
     std::uint32_t seed = 1;
 };
 
@@ -42,6 +43,29 @@ std::vector<NamedOptions> usual_scenes() {
         if (scene.name == "garden" || scene.name == "metals" || scene.name == "lamps")
             scenes.push_back(scene);
     return scenes;
+}
+
+/// The synthetic pictures, where the folder of test assets is known or lies beside the source; else "".
+std::string usual_pictures() {
+    const char* assets = std::getenv("TRIAD_TEST_ASSETS");
+    const fs::path folder =
+        (assets ? fs::path(assets) : scenes_folder().parent_path() / "../shared/assets") / "subpixel";
+    std::error_code error;
+    if (fs::is_directory(folder, error)) return folder.lexically_normal().string();
+    inform("The synthetic pictures are left out: they are not in " + folder.lexically_normal().string() +
+           " (TRIAD_TEST_ASSETS names the folder above, --synthetic any folder).");
+    return "";
+}
+
+/// Every panel at every ppd; without ppd at the panel's own.
+std::vector<PanelView> displays_of(const SubpixelOptions& o) {
+    std::vector<PanelView> displays;
+    for (const std::string& name : o.panels) {
+        const Panel panel = panel_named(name);
+        for (const double ppd : o.ppd.empty() ? std::vector{panel.ppd.value_or(usual_ppd)} : o.ppd)
+            displays.push_back({panel, ppd});
+    }
+    return displays;
 }
 
 ToneMap tone_map_of(const std::string& name) {
@@ -59,10 +83,15 @@ class Bench {
     void run() {
         std::vector<NamedOptions> scenes;
         for (const std::string& text : o_.scenes) scenes.push_back(parse_scene(text));
-        if (scenes.empty()) scenes = usual_scenes();
+        std::string synthetic = o_.synthetic;
+        if (scenes.empty() && synthetic.empty()) {
+            scenes = usual_scenes();
+            synthetic = usual_pictures();
+        }
+        for (const PanelView& view : report_.plan.displays) displays_.push_back(subpixel_display(view));
         for (const NamedOptions& scene : scenes)
             if (!guard_.interrupted()) render(scene);
-        if (!o_.synthetic.empty()) sample();
+        if (!synthetic.empty()) sample(synthetic);
     }
 
     const DeviceInfo* device() const { return device_ ? &device_->info() : nullptr; }
@@ -91,18 +120,17 @@ class Bench {
         view.samples = o_.samples, view.reference_spp = o_.reference_spp;
         const auto source = rendered_source(open(options), view);
         run_subpixel(
-            report_.plan, name.name, *source, true, [this](const std::string& s) { return go_on(s); },
+            report_.plan, displays_, name.name, *source, [this](const std::string& s) { return go_on(s); },
             report_.rows);
     }
 
     /// The pictures of a folder, many samples a pixel.
-    void sample() {
+    void sample(const fs::path& folder) {
         std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(o_.synthetic))
+        for (const auto& entry : fs::directory_iterator(folder))
             if (entry.path().extension() == ".exr") files.push_back(entry.path());
         std::sort(files.begin(), files.end());
-        if (files.empty())
-            throw Error(Exit::scene, "--synthetic " + o_.synthetic + ": there is no .exr file in it.");
+        if (files.empty()) throw Error(Exit::scene, folder.string() + ": there is no .exr file in it.");
         for (const fs::path& path : files) {
             if (guard_.interrupted()) return;
             const unsigned n = o_.synthetic_samples;
@@ -116,13 +144,14 @@ class Bench {
             if (!device_) device_ = std::make_unique<Device>(Device::open({.selector = o_.device}));
             const auto source = sampled_source(*device_, std::move(picture), n);
             run_subpixel(
-                report_.plan, path.stem().string(), *source, false,
+                report_.plan, displays_, path.stem().string(), *source,
                 [this](const std::string& s) { return go_on(s); }, report_.rows);
         }
     }
 
     const SubpixelOptions& o_;
     SubpixelReport& report_;
+    std::vector<SubpixelDisplay> displays_;
     std::unique_ptr<Device> device_;
     const InterruptGuard guard_;
 };
@@ -131,12 +160,7 @@ Exit run(const SubpixelOptions& o) {
     for (const std::string& path : {o.csv, o.json})
         if (!path.empty()) check_writable(path);
     if (!o.folder.empty()) fs::create_directories(o.folder);
-    const Panel panel = panel_named(o.panel);
-    SubpixelReport report{
-        {panel, o.ppd.value_or(panel.ppd.value_or(usual_ppd)), o.rays, o.repetitions, o.seed},
-        {},
-        command_words(),
-        date_words()};
+    SubpixelReport report{{displays_of(o), o.rays, o.repetitions, o.seed}, {}, command_words(), date_words()};
     Bench bench(o, report);
     bench.run();
     if (o.json != "-" && o.csv != "-") std::fputs(summary_of(report).c_str(), stdout);
@@ -159,16 +183,23 @@ Exit run(const SubpixelOptions& o) {
 
 void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     auto o = std::make_shared<SubpixelOptions>();
-    CLI::App* command = bench.add_subcommand("subpixel",
-                                             "Perceived error of every method of reconstruction against rays "
-                                             "and time; without scenes, four of its own");
+    CLI::App* command =
+        bench.add_subcommand("subpixel",
+                             "Perceived error of every method of reconstruction against rays "
+                             "and time; without scenes, four of its own and the synthetic pictures");
     command->add_option("SCENE", o->scenes, "As in triad bench error")->type_name("");
-    command->add_option("--panel", o->panel, "The display (default rgb)")->type_name("PANEL");
-    command->add_option("--ppd", o->ppd, "Pixels per degree (default: the panel's, else 45)")
+    command->add_option("--panel", o->panels, "The displays (default rgb)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("LIST");
+    command->add_option("--ppd", o->ppd, "Pixels per degree of each (default: the panel's, else 45)")
+        ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::Range(5.0, 1000.0))
-        ->type_name("X");
+        ->type_name("LIST");
     command->add_option("--rays", o->rays, "Per pixel (default 9,36,144)")
         ->delimiter(',')
+        ->allow_extra_args(false)
         ->check(CLI::Range(1, 4096))
         ->type_name("LIST");
     command->add_option("--repetitions", o->repetitions, "With other seeds (default 2)")
@@ -178,10 +209,10 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     command->add_option("--samples", o->samples, "Of references, per pixel along each axis (default 6)")
         ->check(CLI::Range(3, 24))
         ->type_name("N");
-    command->add_option("--reference-spp", o->reference_spp, "Rays per sample of references (default 64)")
+    command->add_option("--reference-spp", o->reference_spp, "Rays per sample of references (default 256)")
         ->check(CLI::Range(1, 65536))
         ->type_name("N");
-    command->add_option("--synthetic", o->synthetic, "Also the .exr pictures of a folder")
+    command->add_option("--synthetic", o->synthetic, "The .exr pictures of a folder, as scenes")
         ->type_name("FOLDER");
     command
         ->add_option("--synthetic-samples", o->synthetic_samples,

@@ -15,13 +15,24 @@ struct SubpixelReport {
     std::string command, date;  ///< for the page
 };
 
+/// Comparisons with triad at equal rays.
+struct Verdict {
+    std::size_t comparisons = 0, worse = 0;  ///< significantly
+    std::vector<SubpixelRow> better;         ///< significantly
+};
+Verdict verdict_of(const std::vector<SubpixelRow>& rows);
+
+std::vector<std::string> scenes_of(const std::vector<SubpixelRow>& rows);
+bool is_of(const SubpixelRow& row, const PanelView& view);
+
 Json rows_of(const SubpixelReport& report);
 std::string csv_of(const SubpixelReport& report);
-/// One line a scene and eye: errors of the best methods at the most rays; then every row that beats triad.
+/// A line for each display, scene and rays: S-CIELAB's errors of all methods, best first; then every row that
+/// beats triad.
 std::string summary_of(const SubpixelReport& report);
 
-/// Writes FOLDER/report.html and a plot of each scene as FOLDER/*.svg. Without gnuplot there are no plots,
-/// and a warning.
+/// Writes FOLDER/report.html and, for the first display, a plot of each scene as FOLDER/*.svg. Without
+/// gnuplot there are no plots, and a warning.
 void write_subpixel_report(const std::filesystem::path& folder, const SubpixelReport& report);
 
 }  // namespace triad

@@ -13,15 +13,16 @@ inline constexpr char subpixel_yardstick[] = "triad";
 inline constexpr char subpixel_adaptive[] = "triad-adaptive";
 
 struct SubpixelPlan {
-    Panel panel;
-    double ppd = 45;
+    std::vector<PanelView> displays;
     std::vector<unsigned> rays = {9, 36, 144};  ///< per pixel
     unsigned repetitions = 2;                   ///< with other seeds
     std::uint32_t seed = 1;
 };
 
 struct SubpixelRow {
-    std::string scene, eye, method;
+    std::string scene, panel;
+    double ppd = 0;
+    std::string eye, method;
     unsigned rays = 0;          ///< that were asked for
     double rays_per_pixel = 0;  ///< that were traced: whole bins
     ErrorInterval error;        ///< over the repetitions
@@ -31,18 +32,27 @@ struct SubpixelRow {
         over_triad;  ///< error less that of triad at these rays, tiles drawn in pairs
 };
 
+/// Whether the row is of a method that is compared with triad: adaptive sampling is triad itself.
+bool is_compared(const SubpixelRow& row);
 /// A method that is better than triad, significantly: the interval of the difference lies below 0.
 bool beats_triad(const SubpixelRow& row);
 
-/// All methods for so many rays: those of the table of reconstructions that this panel has, pixel filters,
-/// triad without refinement, with cross-colour taps, and adaptive where scenes are rendered.
-std::vector<SubpixelMethod> subpixel_methods(const SubpixelPlan& plan, unsigned rays, bool rendered);
+/// A display with the methods that the bench has for it: those of the table of reconstructions that its panel
+/// has, pixel filters, triad without refinement, and with adaptive sampling.
+struct SubpixelDisplay {
+    PanelView view;
+    std::vector<SubpixelMethod> methods;
+};
+SubpixelDisplay subpixel_display(const PanelView& view);
 
-/// Supersampling with 1 to 8 rays along each axis, whatever the plan's rays: how soon more rays are in vain.
-std::vector<std::pair<SubpixelMethod, unsigned>> supersampling_curve(const SubpixelPlan& plan);
+/// N x N rays in a grid. From 1 to 8 the bench runs all, whatever the plan's rays, and shows how soon more
+/// rays are in vain.
+SubpixelMethod supersampling(unsigned side);
 
-/// Adds the rows of one scene. `go_on` is told what was done, and returns false to stop.
-void run_subpixel(const SubpixelPlan& plan, const std::string& scene, SubpixelSource& source, bool rendered,
+/// Adds the rows of one scene, on displays that are the plan's. `go_on` is told what was done, and returns
+/// false to stop. Rays are traced once for all displays.
+void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelDisplay>& displays,
+                  const std::string& scene, SubpixelSource& source,
                   const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows);
 
 }  // namespace triad

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/colour.h"
+#include "base/text.h"
 #include "measure/subpixel_source.h"
 #include "render/ray_filter.h"
 
@@ -16,18 +17,6 @@ struct Start {
     vec3 weight{1};
 };
 
-/// Means of squares of n x n samples.
-RgbImage shrunk(const RgbImage& image, unsigned n) {
-    RgbImage small{image.width / n, image.height / n, {}};
-    small.rgb.resize(std::size_t(small.width) * small.height * 3);
-    for (unsigned y = 0; y < small.height * n; ++y)
-        for (unsigned x = 0; x < small.width * n; ++x)
-            for (unsigned c = 0; c < 3; ++c)
-                small.rgb[(std::size_t(y / n) * small.width + x / n) * 3 + c] +=
-                    image.rgb[(std::size_t(y) * image.width + x) * 3 + c] / float(n * n);
-    return small;
-}
-
 class SampledSource : public SubpixelSource {
   public:
     SampledSource(Device& device, RgbImage picture, unsigned samples)
@@ -35,31 +24,48 @@ class SampledSource : public SubpixelSource {
           picture_(std::move(picture)),
           samples_(samples),
           reference_samples_(samples >= 12 && samples % 2 == 0 ? samples / 2 : samples),
-          reference_(shrunk(picture_, samples_ / reference_samples_)) {}
+          reference_(block_means(picture_, samples_ / reference_samples_, samples_ / reference_samples_)) {}
 
     const RgbImage& reference() const override { return reference_; }
     unsigned samples() const override { return reference_samples_; }
+    bool adapts() const override { return false; }
+    void forget() override { traced_.clear(); }
 
     SubpixelShot shoot(const SubpixelMethod& method, unsigned rays, std::uint32_t seed) override {
         const Reconstruction& how = method.how;
         const unsigned w = picture_.width / samples_, h = picture_.height / samples_;
         const auto spp = unsigned(whole_bins(rays, how.bins_x * how.bins_y));
-        const auto begin = std::chrono::steady_clock::now();
-        const BinImage bins = trace(how, w, h, spp / (how.bins_x * how.bins_y), seed);
+        const Traced& bins = traced(how, w, h, spp / (how.bins_x * how.bins_y), seed);
         DisplaySettings settings;
         settings.tone_map = ToneMap::none, settings.alpha = false;
         apply(how, settings);
-        const auto rgba = resolve_display(device_, bins, settings);
+        const auto begin = std::chrono::steady_clock::now();
+        const auto rgba = resolve_display(device_, bins.image, settings);
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
-        SubpixelShot shot{{w, h, std::vector<float>(std::size_t(w) * h * 3)}, double(spp), seconds.count()};
-        for (std::size_t i = 0; i < shot.drives.rgb.size(); ++i) {
-            const double encoded = srgb_encode(std::clamp(double(rgba[i / 3 * 4 + i % 3]), 0.0, 1.0));
-            shot.drives.rgb[i] = float(srgb_decode(std::round(encoded * 255) / 255));
-        }
-        return shot;
+        return {shown_in_8_bits(w, h, rgba), double(spp), bins.seconds + seconds.count()};
     }
 
   private:
+    struct Traced {
+        BinImage image;
+        double seconds = 0;
+    };
+
+    const Traced& traced(const Reconstruction& how, unsigned w, unsigned h, unsigned per_bin,
+                         std::uint32_t seed) {
+        RenderSettings rays;
+        apply(how, rays);
+        const auto [found, is_new] =
+            traced_.try_emplace(text_of(rays) + format(" %u %u", per_bin, seed), Traced());
+        if (is_new) {
+            const auto begin = std::chrono::steady_clock::now();
+            found->second.image = trace(how, w, h, per_bin, seed);
+            found->second.seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        }
+        return found->second;
+    }
+
     BinImage trace(const Reconstruction& how, unsigned w, unsigned h, unsigned per_bin,
                    std::uint32_t seed) const {
         std::mt19937 random(seed);
@@ -67,7 +73,8 @@ class SampledSource : public SubpixelSource {
         RenderSettings rays;
         apply(how, rays);
         const std::vector<float> tables = ray_filter_tables(rays);
-        const dev::RayFilterShape shape = ray_filter_shape(rays);
+        const dev::RayFilterShape shape =
+            how.ray_start == RayStart::filter ? ray_filter_shape(rays) : dev::RayFilterShape{};
         BinImage image{w * how.bins_x, h * how.bins_y, how.bins_x, how.bins_y, {}, false};
         for (unsigned y = 0; y < image.rows; ++y)
             for (unsigned x = 0; x < image.columns; ++x) {
@@ -117,19 +124,15 @@ class SampledSource : public SubpixelSource {
     /// The mean of the two by two samples around a point, in px: on a corner of samples all count alike.
     /// Beyond its border the picture is mirrored.
     vec3 see(const dvec2& at) const {
-        const auto mirror = [](int i, unsigned n) {
-            const int period = 2 * int(n), m = (i % period + period) % period;
-            return unsigned(std::min(m, period - 1 - m));
-        };
         const dvec2 sample = at * double(samples_);
         const auto low = glm::ivec2(glm::floor(sample - 1e-6)), high = glm::ivec2(glm::floor(sample + 1e-6));
         vec3 sum{0};
         for (const int y : {low.y, high.y})
             for (const int x : {low.x, high.x}) {
                 const float* rgb =
-                    picture_.rgb.data() +
-                    (std::size_t(mirror(y, picture_.height)) * picture_.width + mirror(x, picture_.width)) *
-                        3;
+                    picture_.rgb.data() + (std::size_t(mirrored_index(y, picture_.height)) * picture_.width +
+                                           mirrored_index(x, picture_.width)) *
+                                              3;
                 sum += vec3(rgb[0], rgb[1], rgb[2]) / 4.0f;
             }
         return sum;
@@ -139,6 +142,7 @@ class SampledSource : public SubpixelSource {
     const RgbImage picture_;
     const unsigned samples_, reference_samples_;
     const RgbImage reference_;
+    std::map<std::string, Traced> traced_;
 };
 
 }  // namespace

@@ -5,23 +5,17 @@
 #include <cmath>
 
 #include "base/colour.h"
+#include "base/text.h"
 #include "measure/perceived_sets.h"
 
 namespace triad {
 namespace {
 
+/// Of one scene, ready for more rays: rays by a panel's filter need one for each display.
+constexpr std::size_t most_renderers = 64;
+
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// As a display with 8 bits has them.
-RgbImage shown(unsigned width, unsigned height, const std::vector<float>& rgba) {
-    RgbImage image{width, height, std::vector<float>(std::size_t(width) * height * 3)};
-    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
-        const double encoded = srgb_encode(std::clamp(double(rgba[i / 3 * 4 + i % 3]), 0.0, 1.0));
-        image.rgb[i] = float(srgb_decode(std::round(encoded * 255) / 255));
-    }
-    return image;
 }
 
 RgbImage rgb_of(unsigned width, unsigned height, const std::vector<float>& rgba) {
@@ -45,6 +39,8 @@ class RenderedSource : public SubpixelSource {
 
     const RgbImage& reference() const override { return reference_; }
     unsigned samples() const override { return view_.samples; }
+    bool adapts() const override { return true; }
+    void forget() override { films_.clear(); }
 
     SubpixelShot shoot(const SubpixelMethod& method, unsigned rays, std::uint32_t seed) override {
         const std::uint64_t spp = whole_bins(rays, method.how.bins_x * method.how.bins_y);
@@ -53,8 +49,8 @@ class RenderedSource : public SubpixelSource {
         apply(method.how, settings);
         const double start = now();
         const auto rgba = resolve_display(device_, shared.film, settings);
-        return {shown(shared.film.width, shared.film.height, rgba), shared.film.sample_numbers().mean,
-                shared.seconds + now() - start};
+        return {shown_in_8_bits(shared.film.width, shared.film.height, rgba),
+                shared.film.sample_numbers().mean, shared.seconds + now() - start};
     }
 
   private:
@@ -74,11 +70,11 @@ class RenderedSource : public SubpixelSource {
         RenderSettings settings = view_.settings;
         apply(method.how, settings);
         const std::string rays = text_of(settings);
-        const std::string key =
-            rays + " " + std::to_string(spp) + " " + std::to_string(seed) + (method.adaptive ? "a" : "");
+        std::string key = rays + " " + std::to_string(spp) + " " + std::to_string(seed);
+        if (method.adaptive)
+            key += format(" adaptive %s %g", method.how.panel->panel.name.c_str(), method.how.panel->ppd);
         if (const auto found = films_.find(key); found != films_.end()) return found->second;
-        if (seed != seed_ || spp_ > spp) films_.clear();  // those of another run are wanted no more
-        seed_ = seed, spp_ = spp;
+        if (renderers_.size() >= most_renderers) renderers_.clear();
         auto& renderer = renderers_[rays];
         if (!renderer) renderer = std::make_unique<Renderer>(device_, *view_.scene, settings);
         renderer->restart(seed);
@@ -98,11 +94,18 @@ class RenderedSource : public SubpixelSource {
     RgbImage reference_;
     std::map<std::string, std::unique_ptr<Renderer>> renderers_;
     std::map<std::string, Shared> films_;
-    std::uint32_t seed_ = 0;
-    std::uint64_t spp_ = 0;
 };
 
 }  // namespace
+
+RgbImage shown_in_8_bits(unsigned width, unsigned height, const std::vector<float>& rgba) {
+    RgbImage image{width, height, std::vector<float>(std::size_t(width) * height * 3)};
+    for (std::size_t i = 0; i < image.rgb.size(); ++i) {
+        const double encoded = srgb_encode(std::clamp(double(rgba[i / 3 * 4 + i % 3]), 0.0, 1.0));
+        image.rgb[i] = float(srgb_decode(std::round(encoded * 255) / 255));
+    }
+    return image;
+}
 
 std::unique_ptr<SubpixelSource> rendered_source(Device& device, const RenderedView& view) {
     return std::make_unique<RenderedSource>(device, view);

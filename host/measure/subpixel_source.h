@@ -26,12 +26,18 @@ struct SubpixelShot {
     double seconds = 0;  ///< rays and reconstruction; rays that several methods share count for each
 };
 
+/// RGBA of resolve_display as a display with 8 bits has it.
+RgbImage shown_in_8_bits(unsigned width, unsigned height, const std::vector<float>& rgba);
+
 class SubpixelSource {
   public:
     virtual ~SubpixelSource() = default;
     virtual const RgbImage& reference() const = 0;  ///< display-linear, in [0, 1]
     virtual unsigned samples() const = 0;           ///< of the reference, per pixel along each axis
-    /// At least `rays` per pixel, as many in every bin.
+    virtual bool adapts() const = 0;                ///< whether adaptive sampling makes a difference
+    /// Rays that were traced before are not wanted any more.
+    virtual void forget() = 0;
+    /// At least `rays` per pixel, as many in every bin. Methods whose rays are alike share them.
     virtual SubpixelShot shoot(const SubpixelMethod& method, unsigned rays, std::uint32_t seed) = 0;
 };
 
@@ -41,7 +47,7 @@ struct RenderedView {
     RenderSettings settings;  ///< of the picture
     float exposure_ev = 0;
     ToneMap tone_map = ToneMap::khronos;
-    unsigned samples = 6, reference_spp = 64;
+    unsigned samples = 6, reference_spp = 256;
 };
 std::unique_ptr<SubpixelSource> rendered_source(Device& device, const RenderedView& view);
 

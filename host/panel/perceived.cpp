@@ -9,6 +9,7 @@
 #include "base/parallel_for.h"
 #include "base/text.h"
 #include "panel/fourier.h"
+#include "panel/frame.h"
 #include "panel/simulate.h"
 
 namespace triad {
@@ -17,40 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 using Planes = std::array<std::vector<double>, 3>;
 
-constexpr unsigned least_margin = 16;  // px: the widest blur of S-CIELAB's at 45 pixels per degree
 constexpr unsigned rows_per_chunk = 16;
-
-bool transforms_fast(unsigned n) {
-    for (const unsigned factor : {2u, 3u, 5u, 7u})
-        while (n % factor == 0) n /= factor;
-    return n == 1;
-}
-
-/// Around a picture of `size` px: a multiple of the cell's size that makes a size of fast transforms, soon.
-unsigned margin_of(unsigned size, unsigned samples, unsigned cell) {
-    const unsigned first = (least_margin + cell - 1) / cell * cell;
-    for (unsigned margin = first; margin < 2 * first; margin += cell)
-        if (transforms_fast((size + 2 * margin) * samples)) return margin;
-    return first;
-}
-
-/// The picture with mirrored margins.
-RgbImage extended(const RgbImage& image, unsigned margin_x, unsigned margin_y) {
-    const auto mirror = [](unsigned i, unsigned margin, unsigned n) {
-        const unsigned period = 2 * n, m = (i + period - margin % period) % period;
-        return std::min(m, period - 1 - m);
-    };
-    RgbImage result{image.width + 2 * margin_x, image.height + 2 * margin_y, {}};
-    result.rgb.resize(std::size_t(result.width) * result.height * 3);
-    float* to = result.rgb.data();
-    for (unsigned y = 0; y < result.height; ++y) {
-        const float* row =
-            image.rgb.data() + std::size_t(mirror(y, margin_y, image.height)) * image.width * 3;
-        for (unsigned x = 0; x < result.width; ++x, to += 3)
-            std::copy_n(row + std::size_t(mirror(x, margin_x, image.width)) * 3, 3, to);
-    }
-    return result;
-}
 
 std::string size_text(const RgbImage& image) { return format("%u x %u", image.width, image.height); }
 
@@ -74,8 +42,8 @@ struct PerceivedMetric::State {
           width(reference.width / s),
           height(reference.height / s),
           samples(s),
-          margin_x(c.repeats ? 0 : margin_of(width, s, p.cell_x)),
-          margin_y(c.repeats ? 0 : margin_of(height, s, p.cell_y)),
+          margin_x(c.repeats ? 0 : frame_of(width, s, p.cell_x)),
+          margin_y(c.repeats ? 0 : frame_of(height, s, p.cell_y)),
           fourier((width + 2 * margin_x) * s, (height + 2 * margin_y) * s) {
         const PanelLight light = panel_light(panel);
         white = light.white;
@@ -83,7 +51,7 @@ struct PerceivedMetric::State {
         opponent = from_xyz * dmat3(light.channel[0], light.channel[1], light.channel[2]);
         back = glm::inverse(from_xyz);
         weigh();
-        wanted = seen(extended(reference, margin_x * samples, margin_y * samples));
+        wanted = seen(framed(reference, margin_x * samples, margin_y * samples));
     }
 
     void weigh() {
@@ -151,7 +119,7 @@ PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
     if (drives.width != s.width || drives.height != s.height)
         throw Error(Exit::comparison, format("The picture is %s, its reference shows %u x %u pixels.",
                                              size_text(drives).c_str(), s.width, s.height));
-    const RgbImage light = simulate_panel(s.panel, extended(drives, s.margin_x, s.margin_y), s.samples);
+    const RgbImage light = simulate_panel(s.panel, framed(drives, s.margin_x, s.margin_y), s.samples);
     const Planes shown = s.seen(light);
     const dmat3 axes = linear_lab_of_xyz(s.white);
     const auto at = [](const Planes& p, std::size_t i) { return dvec3(p[0][i], p[1][i], p[2][i]); };

@@ -109,47 +109,47 @@ PlaneSums TapPlan::down_sums(const PlaneShape& bins) const {
     return collector.finish();
 }
 
-PlaneSums TapPlan::across_sums(const PlaneShape& sums) const {
+template <class Visit>
+PlaneSums TapPlan::collect(Visit&& visit) const {
     Collector collector(channels_ * table_.cell_x, table_.cell_y);
-    const int columns = int(this->columns());
     for (unsigned phase = 0; phase < table_.cell_y; ++phase)
         for (unsigned c = 0; c < channels_; ++c)
             for (unsigned x = 0; x < table_.cell_x; ++x) {
                 const Taps& taps = of(phase, x, c);
-                for (unsigned u = 0; u < taps.width; ++u) {
-                    const int at = int(x * table_.bins_x) + taps.first_x + int(u);
-                    const auto plane = std::int64_t(c * table_.cell_x + x) * columns + floor_mod(at, columns);
-                    collector.add(phase, c * table_.cell_x + x,
-                                  plane * std::int64_t(sums.plane) + floor_div(at, columns), taps.across[u]);
-                }
+                const unsigned plane = c * table_.cell_x + x;
+                const int first = int(x * table_.bins_x) + taps.first_x;
+                visit(c, plane, first, taps, [&](std::int64_t offset, float weight) {
+                    collector.add(phase, plane, offset, weight);
+                });
             }
     return collector.finish();
 }
 
-PlaneSums TapPlan::sums(const PlaneShape& bins) const {
-    Collector collector(channels_ * table_.cell_x, table_.cell_y);
+std::int64_t TapPlan::column_at(std::int64_t first_plane, int at, const PlaneShape& shape) const {
     const int columns = int(this->columns());
-    for (unsigned phase = 0; phase < table_.cell_y; ++phase)
-        for (unsigned c = 0; c < channels_; ++c)
-            for (unsigned x = 0; x < table_.cell_x; ++x) {
-                const Taps& taps = of(phase, x, c);
-                const std::size_t n = std::size_t(taps.width) * taps.height;
-                for (unsigned from = 0; from < channels_; ++from) {
-                    if (from != c && (from > 2 || taps.cross.empty())) continue;
-                    const float* weights = from == c ? taps.weights.data() : taps.cross.data() + from * n;
-                    for (unsigned v = 0; v < taps.height; ++v)
-                        for (unsigned u = 0; u < taps.width; ++u) {
-                            const int at = int(x * table_.bins_x) + taps.first_x + int(u);
-                            const auto plane = std::int64_t(from) * columns + floor_mod(at, columns);
-                            collector.add(phase, c * table_.cell_x + x,
-                                          plane * std::int64_t(bins.plane) +
-                                              (taps.first_y + int(v)) * std::int64_t(bins.stride) +
-                                              floor_div(at, columns),
-                                          weights[v * taps.width + u]);
-                        }
-                }
-            }
-    return collector.finish();
+    return (first_plane * columns + floor_mod(at, columns)) * std::int64_t(shape.plane) +
+           floor_div(at, columns);
+}
+
+PlaneSums TapPlan::across_sums(const PlaneShape& sums) const {
+    return collect([&](unsigned, unsigned plane, int first, const Taps& taps, auto&& add) {
+        for (unsigned u = 0; u < taps.width; ++u) add(column_at(plane, first + int(u), sums), taps.across[u]);
+    });
+}
+
+PlaneSums TapPlan::sums(const PlaneShape& bins) const {
+    return collect([&](unsigned c, unsigned, int first, const Taps& taps, auto&& add) {
+        const std::size_t n = std::size_t(taps.width) * taps.height;
+        for (unsigned from = 0; from < channels_; ++from) {
+            if (from != c && (from > 2 || taps.cross.empty())) continue;
+            const float* weights = from == c ? taps.weights.data() : taps.cross.data() + from * n;
+            for (unsigned v = 0; v < taps.height; ++v)
+                for (unsigned u = 0; u < taps.width; ++u)
+                    add(column_at(from, first + int(u), bins) +
+                            (taps.first_y + int(v)) * std::int64_t(bins.stride),
+                        weights[v * taps.width + u]);
+        }
+    });
 }
 
 PlaneSums refine_sums(const RefineStencil& s, const PlaneShape& drives) {

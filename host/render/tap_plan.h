@@ -52,6 +52,14 @@ class TapPlan {
     unsigned left_ = 0, right_ = 0, up_ = 0, down_ = 0;
     bool separable_ = true;
 
+    /// Calls visit(channel, plane, first column of bins, taps, add) for every output; add(offset, weight)
+    /// gives it a tap.
+    template <class Visit>
+    PlaneSums collect(Visit&& visit) const;
+    /// Offset of column `at`, counted from the output's own cell, among the columns of the first_plane-th
+    /// channel.
+    std::int64_t column_at(std::int64_t first_plane, int at, const PlaneShape& shape) const;
+
     const Taps& of(unsigned phase, unsigned x, unsigned channel) const {
         return table_.outputs[(phase * table_.cell_x + x) * channels_ + channel];
     }

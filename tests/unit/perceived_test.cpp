@@ -121,7 +121,7 @@ RgbImage points(const RgbImage& samples, const double (&x)[3]) {
 }
 
 RgbImage on_film(const RgbImage& samples, const TapTable& table, Beyond beyond = Beyond::again) {
-    return filtered(shrunk(samples, 12 / table.bins_x, 12 / table.bins_y), table, beyond);
+    return filtered(block_means(samples, 12 / table.bins_x, 12 / table.bins_y), table, beyond);
 }
 
 std::vector<Method> methods() {

@@ -24,7 +24,7 @@ PerceivedError noisy(double lightness, double noise, unsigned seed) {
     return error;
 }
 
-SubpixelPlan plan() { return {builtin_panel("rgb").value()}; }
+SubpixelPlan plan() { return {{PanelView{builtin_panel("rgb").value(), 45}}}; }
 
 bool has(const std::vector<SubpixelMethod>& methods, const std::string& name) {
     return std::any_of(methods.begin(), methods.end(),
@@ -67,43 +67,36 @@ TEST(SubpixelScore, repetitions_add_up_to_their_mean_square) {
 }
 
 TEST(SubpixelBench, every_method_takes_part_once) {
-    const auto methods = subpixel_methods(plan(), 9, true);
-    for (const char* name : {"centre",
-                             "ssaa:3",
-                             "pane:4",
-                             "pane-encoded:4",
-                             "box",
-                             "tent",
-                             "gaussian",
-                             "mitchell",
-                             "catmull-rom",
-                             "lanczos",
-                             "blackman-harris",
-                             "subpixel3",
-                             "displaced",
-                             "platt",
-                             "platt:3",
-                             "random3",
-                             "random3:shared",
-                             "triad-unrefined",
-                             "triad",
-                             "triad-adaptive"})
+    const auto methods = subpixel_display(plan().displays[0]).methods;
+    for (const char* name :
+         {"centre", "pane:4", "pane-encoded:4", "box", "tent", "gaussian", "mitchell", "catmull-rom",
+          "lanczos", "blackman-harris", "subpixel3", "displaced", "platt", "platt:3", "random3",
+          "random3:shared", "triad-unrefined", "triad", "triad-adaptive"})
         EXPECT_TRUE(has(methods, name)) << name;
-    EXPECT_EQ(methods.size(), 20u);
-    EXPECT_FALSE(has(subpixel_methods(plan(), 10, true), "ssaa:3"));  // no square
-    EXPECT_FALSE(has(subpixel_methods(plan(), 9, false), "triad-adaptive"));
-    SubpixelPlan oled = plan();
-    oled.panel = builtin_panel("qd-oled").value();
-    EXPECT_FALSE(has(subpixel_methods(oled, 9, true), "platt"));  // no stripes
-    EXPECT_TRUE(has(subpixel_methods(oled, 9, true), "triad"));
+    EXPECT_EQ(methods.size(), 19u);
+    const auto oled = subpixel_display({builtin_panel("qd-oled").value(), 45}).methods;
+    EXPECT_FALSE(has(oled, "platt"));  // no stripes
+    EXPECT_TRUE(has(oled, "triad") && has(oled, "triad-adaptive"));
+    EXPECT_EQ(supersampling(5).how.bins_x, 5u);
 }
 
 TEST(SubpixelBench, files_hold_every_row_and_the_verdict) {
     SubpixelReport report{plan(), {}, "triad bench subpixel", ""};
     report.plan.rays = {9};
-    report.rows.push_back({"a, \"b\"", "scielab", "triad", 9, 9, {1, 0.9, 1.1}, 0.8, 0.6, 0.5, {}});
     report.rows.push_back(
-        {"a, \"b\"", "scielab", "box", 9, 9, {2, 1.9, 2.1}, 1, 1, 0.5, ErrorInterval{-1, -1.1, -0.9}});
+        {"a, \"b\"", "rgb", 45, "scielab", "triad", 9, 9, {1, 0.9, 1.1}, 0.8, 0.6, 0.5, {}});
+    report.rows.push_back({"a, \"b\"",
+                           "rgb",
+                           45,
+                           "scielab",
+                           "box",
+                           9,
+                           9,
+                           {2, 1.9, 2.1},
+                           1,
+                           1,
+                           0.5,
+                           ErrorInterval{-1, -1.1, -0.9}});
     const Json rows = rows_of(report);
     ASSERT_EQ(rows.size(), 2u);
     for (const char* member : {"scene", "panel", "ppd", "eye", "method", "rays_per_pixel", "error",
@@ -112,7 +105,9 @@ TEST(SubpixelBench, files_hold_every_row_and_the_verdict) {
     const std::string csv = csv_of(report);
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
     EXPECT_NE(csv.find("\"a, \"\"b\"\"\""), std::string::npos);
-    EXPECT_NE(summary_of(report).find("1 of 1 comparisons"), std::string::npos);
+    EXPECT_NE(summary_of(report).find("of 1 comparisons at equal rays 1 are"), std::string::npos);
     report.rows[1].over_triad = ErrorInterval{1, 0.9, 1.1};
-    EXPECT_NE(summary_of(report).find("0 of 1 comparisons"), std::string::npos);
+    EXPECT_NE(summary_of(report).find(
+                  "of 1 comparisons at equal rays 0 are significantly better than triad, 1 worse"),
+              std::string::npos);
 }
