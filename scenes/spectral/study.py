@@ -188,11 +188,11 @@ def draw_cost(results, path):
 def draw_colour_noise(results, path):
     """Error of colour over samples, per scene; grey: that of off."""
     svg = Svg(760, 300)
-    y, x = LogAxis(1e-4, 100, 250, 40), None
+    y, x = LogAxis(1e-5, 100, 250, 40), None
     for s, (scene, _, _) in enumerate(SCENES):
         left = 56 + 178 * s
         x = LogAxis(SAMPLES[0], SAMPLES[-1], left + 8, left + 150)
-        for decade in range(-4, 3):
+        for decade in range(-5, 3):
             at = y.at(10.0 ** decade)
             svg.line([(left, at), (left + 158, at)], "#ddd")
             if s == 0:
@@ -216,8 +216,8 @@ def draw_colour_noise(results, path):
 def draw_classic(results, path):
     """Per scene: noise at the last number of samples, and how far the converged picture of classic is from auto's."""
     svg, top, bottom = Svg(760, 300), 46, 250
-    axis = LogAxis(1e-5, 10, bottom, top)
-    for decade in range(-5, 2):
+    axis = LogAxis(1e-6, 10, bottom, top)
+    for decade in range(-6, 2):
         at = axis.at(10.0 ** decade)
         svg.line([(56, at), (740, at)], "#ddd")
         svg.text(50, at + 4, f"{10.0 ** decade:g}", "end")
