@@ -96,7 +96,7 @@ void declare(CLI::App& command, RenderOptions& o) {
             "--photon-radius", o.photon_radius,
             "In which photons are gathered, in scene units: of the first sample, after which it shrinks, "
             "or of photon-map (default: chosen by the scene)")
-        ->check(CLI::PositiveNumber)
+        ->check(CLI::Range(1e-12, 1e12))
         ->type_name("R");
     add_parsed(command, "--photon-aim", "on|off",
                "Aim photons at what mirrors and refracts (default on; off: to compare)",
