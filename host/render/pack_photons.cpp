@@ -134,8 +134,9 @@ dvec3 point_of(const dev::Light& l) {
     return p;
 }
 
-/// Seen from the nearest caster, each emissive geometry as a whole.
-std::vector<bool> small_triangle_lights(const PackedScene& packed) {
+/// Whose radius is less than this share of the distance to the nearest caster, each emissive geometry as a
+/// whole.
+std::vector<bool> small_triangle_lights(const PackedScene& packed, double share) {
     std::vector<bool> small(packed.lights.size());
     for (std::size_t g = 0; g < packed.geometries.size(); ++g) {
         const std::uint32_t first = packed.geometries[g].first_light;
@@ -157,7 +158,7 @@ std::vector<bool> small_triangle_lights(const PackedScene& packed) {
                 distance,
                 glm::length(dvec3(c.centre[0], c.centre[1], c.centre[2]) - light.centre()) - c.radius);
         const bool near = share_from(packed.casters, light.centre()) > near_share;
-        if (light.radius() < (near ? near_light : small_light) * distance)
+        if (light.radius() < (near ? near_light : share) * distance)
             for (std::size_t i = first; i < end; ++i) small[i] = true;
     }
     return small;
@@ -201,6 +202,8 @@ void refuse_for_map(const Scene& scene, const RenderSettings& settings, const Pa
 void pack_photons(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
     const auto paths = [&](const std::string& why) {
         packed.casters.clear();
+        for (dev::Light& l : packed.lights) l.flags &= ~std::uint32_t(LIGHT_PHOTONS);
+        packed.environment.photons = 0;
         packed.integrator = "path: " + why;
     };
     const bool map = settings.integrator == Integrator::photon_map;
@@ -218,20 +221,23 @@ void pack_photons(const Scene& scene, const RenderSettings& settings, PackedScen
     if (automatic && !strong) return paths("nothing but varnish reflects without blur");
 
     const bool aimed = settings.aim_photons && !map;
-    const std::vector<bool> small = small_triangle_lights(packed);
+    const bool sun = automatic && packed.environment.light != TRIAD_NONE && has_sun(scene);
+    // Once photons are traced, lights of middling size are better left to them too.
+    const std::vector<bool> reason = small_triangle_lights(packed, small_light),
+                            small = small_triangle_lights(packed, near_light);
     std::vector<double> weights(packed.lights.size(), 0.0);
     bool any = false;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         dev::Light& l = packed.lights[i];
         if (!(l.pick > 0)) continue;
         if (automatic && l.type == LIGHT_TRIANGLE && !small[i]) continue;
-        if (automatic && l.type == LIGHT_ENVIRONMENT && !has_sun(scene)) continue;
+        if (automatic && l.type == LIGHT_ENVIRONMENT && !sun) continue;
         const bool afar = l.type == LIGHT_DIRECTIONAL || l.type == LIGHT_ENVIRONMENT;
         weights[i] =
             l.pick * (afar || !aimed ? 1.0 : std::clamp(share_from(packed.casters, point_of(l)), 1e-6, 1.0));
         l.flags |= LIGHT_PHOTONS;
         if (l.type == LIGHT_ENVIRONMENT) packed.environment.photons = 1;
-        any = true;
+        any |= !automatic || l.type != LIGHT_TRIANGLE || reason[i];
     }
     if (!any) return paths("every light is large, and paths find it");
     packed.photon_lights_shape = cdf_shape(weights.size());

@@ -281,6 +281,9 @@ TEST(Photons, are_used_only_where_something_casts_a_small_light) {
     small.add(shapes::quad({0, 2.5f, 0}, {0.05f, 0, 0}, {0, 0, 0.05f}), emitter(400.0f));
     EXPECT_TRUE(chosen(small.scene, Integrator::automatic));
     EXPECT_FALSE(chosen(small.scene, Integrator::path));
+    Builder middling = casters();
+    middling.add(shapes::quad({-0.8f, 5, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}), emitter(4.0f));
+    EXPECT_FALSE(chosen(middling.scene, Integrator::automatic)) << "no reason by itself";
     EXPECT_FALSE(chosen(with_square_light(), Integrator::automatic)) << "a large light";
     EXPECT_TRUE(chosen(with_square_light(), Integrator::photons));
     Builder plain;
