@@ -38,7 +38,8 @@ void Renderer::State::prepare_photons() {
     const Options options = options_of(features);
     trace_photons = device.build("photon/photon.cl", options).kernel("trace_photons");
     if (map) map.compile(options);
-    launch_photons(0, 64);  // compiles, on some drivers; the film is still to be cleared
+    // Compiles, on some drivers; the film is still to be cleared.
+    launch_photons(0, std::min<std::uint64_t>(photons, 64));
     device.finish();
     photon_seconds = 0;
 }

@@ -37,6 +37,16 @@ TEST(PhotonCommand, more_photons_than_there_is_memory_for_are_refused_with_their
     EXPECT_FALSE(fs::exists(out));
 }
 
+TEST(PhotonCommand, a_single_photon_is_enough) {
+    const std::string out = (fs::path(testing::TempDir()) / "one.png").string();
+    for (const std::string integrator : {"photons", "light", "photon-map"}) {
+        const Outcome outcome =
+            run_triad("render " + cubo + " --size 16x12 --spp 2 --photons 1 -q --integrator " + integrator +
+                      " -o " + out);
+        EXPECT_EQ(outcome.exit, 0) << integrator << ": " << outcome.output;
+    }
+}
+
 TEST(PhotonCommand, the_classic_map_tells_the_time_of_its_phases) {
     const std::string out = (fs::path(testing::TempDir()) / "classic.png").string();
     for (const std::string final_gather : {"on", "off"}) {
