@@ -134,11 +134,7 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
     const uint scatter = photon_frame->scatter;
     float3 throughput = (float3)(1.0f);
     PhotonTally tally = {0u, 0u, 0u};
-    Traversal traversal;
-    traversal.nodes = nodes;
-    traversal.blocks = blocks;
-    traversal.instances = instances;
-    traversal.root = frame->root;
+    Traversal traversal = traversal_make(nodes, blocks, instances, frame->root);
 #if TRIAD_ALPHA_TEST
     Coverage coverage;
     coverage.scene = &scene;

@@ -25,11 +25,7 @@ kernel void trace_features(SCENE_PARAMETERS, global float* albedos, global float
     const Camera camera = local_frame.camera;
     const float3 eye = (float3)(camera.origin[0], camera.origin[1], camera.origin[2]);
     const float3 forward = (float3)(camera.forward[0], camera.forward[1], camera.forward[2]);
-    Traversal traversal;
-    traversal.nodes = nodes;
-    traversal.blocks = blocks;
-    traversal.instances = instances;
-    traversal.root = frame->root;
+    Traversal traversal = traversal_make(nodes, blocks, instances, frame->root);
 #if TRIAD_ALPHA_TEST
     Coverage coverage;
     coverage.scene = &scene;

@@ -26,15 +26,6 @@ typedef struct Tally {
     RECORD(Recorder recorder;)
 } Tally;
 
-TRIAD_FUNCTION Traversal path_traversal(const Scene* scene) {
-    Traversal t;
-    t.nodes = scene->nodes;
-    t.blocks = scene->blocks;
-    t.instances = scene->instances;
-    t.root = scene->frame->root;
-    return t;
-}
-
 /* Radiance and alpha along one camera ray. */
 TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sampler, Ray ray, Tally* tally) {
     global const Frame* frame = scene->frame;
@@ -61,7 +52,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
     float3 from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]); /* of the edge, before any offset */
 #endif
     PathColour colours = path_colour_start(scene, sampler);
-    Traversal traversal = path_traversal(scene);
+    Traversal traversal = traversal_make(scene->nodes, scene->blocks, scene->instances, frame->root);
 #if TRIAD_ALPHA_TEST
     Coverage coverage;
     coverage.scene = scene;

@@ -33,6 +33,17 @@ typedef struct Traversal {
 #endif
 } Traversal;
 
+/* root: node of the tree that rays begin in. The context, where there is one, is the caller's to set. */
+TRIAD_FUNCTION Traversal traversal_make(global const BvhNode* nodes, global const TriangleBlock* blocks,
+                                        global const Instance* instances, uint root) {
+    Traversal t;
+    t.nodes = nodes;
+    t.blocks = blocks;
+    t.instances = instances;
+    t.root = root;
+    return t;
+}
+
 /* What the slab test needs of a ray, once per ray and space. t of a plane at b is fma(b, inverse, -origin *
  * inverse). */
 typedef struct SlabRay {
