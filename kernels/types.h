@@ -452,7 +452,8 @@ typedef struct PathVertex {
     uint light;     /* the Light that was sampled here and gave `direct`; TRIAD_NONE: none did */
     float direct[3];
     float throughput[3]; /* of what goes on, roulette included */
-    uint unused[2];
+    uint edge;           /* that ends here; it falls where a path goes back and on with another wavelength */
+    float wavelength;    /* that the path came with, in nm; 0: all of them */
 } PathVertex;
 TRIAD_SIZE(PathVertex, 80);
 

@@ -54,16 +54,17 @@ Json to_json(const RecordedVertex& v, const Scene& scene, const std::vector<std:
             {"found_from", name(v.found_source)},
             {"direct", rgb(dvec3(v.direct))},
             {"direct_from", name(v.direct_source)},
-            {"throughput", rgb(dvec3(v.throughput))}};
+            {"throughput", rgb(dvec3(v.throughput))},
+            {"edge", v.edge},
+            {"wavelength", v.wavelength > 0 ? Json(v.wavelength) : Json()}};
 }
 
 /// A path of the table, a line for each vertex.
 std::string path_text(const RecordedPath& path, const Scene& scene, const std::vector<std::string>& names) {
     std::string text;
-    for (std::size_t k = 0; k < path.vertices.size(); ++k) {
-        const RecordedVertex& v = path.vertices[k];
+    for (const RecordedVertex& v : path.vertices) {
         const bool away = v.end == PATH_LEFT_SCENE;
-        text += format("    %4zu  %s(%.5g, %.5g, %.5g)  %s%s%s", k + 1, away ? "towards " : "", v.position.x,
+        text += format("    %4u  %s(%.5g, %.5g, %.5g)  %s%s%s", v.edge, away ? "towards " : "", v.position.x,
                        v.position.y, v.position.z, material_text(v, scene).c_str(), away ? "" : "  ",
                        event_text(v).c_str());
         if (v.found_source != TRIAD_NONE)
@@ -72,10 +73,11 @@ std::string path_text(const RecordedPath& path, const Scene& scene, const std::v
         if (v.direct_source != TRIAD_NONE)
             text += format("; sampled %.4g %.4g %.4g of ", v.direct.x, v.direct.y, v.direct.z) +
                     names[v.direct_source];
+        if (v.wavelength > 0) text += format("; %.1f nm", v.wavelength);
         text += "\n";
     }
-    if (path.edges > path.vertices.size())
-        text += format("          and %zu more\n", path.edges - path.vertices.size());
+    if (path.met > path.vertices.size())
+        text += format("          and %zu more\n", path.met - path.vertices.size());
     return text;
 }
 
@@ -102,7 +104,7 @@ Json to_json(const PixelReport& r, const Scene& scene, const std::vector<std::st
                            {"bin", path.bin},
                            {"value", rgb(dvec3(path.value))},
                            {"share", r.share(i)},
-                           {"edges", path.edges},
+                           {"edges", path.met},
                            {"vertices", std::move(vertices)}});
     }
     return {{"x", x},

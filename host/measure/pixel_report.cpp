@@ -35,7 +35,7 @@ class Collector {
         r_.half_means[path.half] += value;
         r_.alpha += path.value.w;
         squares_ += value * value;
-        for (std::size_t k = 0; k < path.vertices.size(); ++k) add(path.vertices[k], k);
+        for (const RecordedVertex& v : path.vertices) add(v);
         keep(path);
     }
 
@@ -63,7 +63,8 @@ class Collector {
     dvec3 squares_{0.0};
     std::size_t keep_;
 
-    void add(const RecordedVertex& v, std::size_t k) {
+    void add(const RecordedVertex& v) {
+        const std::size_t k = v.edge - 1;
         const std::size_t edges = k + (v.direct_source == TRIAD_NONE ? 1 : 2);
         if (r_.depths.size() < edges) r_.depths.resize(edges);
         ++r_.depths[k].paths;

@@ -53,6 +53,7 @@ void Renderer::record_pixel(unsigned x, unsigned y, SampleRange range,
                 to.material = v.material, to.event = v.event, to.end = v.end;
                 to.found = vec3_of(v.found), to.direct = vec3_of(v.direct);
                 to.throughput = vec3_of(v.throughput);
+                to.edge = v.edge, to.wavelength = v.wavelength;
                 to.found_source = !any(to.found) ? TRIAD_NONE : away ? sky : v.material;
                 to.direct_source = any(to.direct) ? s.light_source[v.light] : TRIAD_NONE;
                 path.vertices.push_back(to);

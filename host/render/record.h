@@ -19,13 +19,17 @@ struct RecordedVertex {
     std::uint32_t found_source = 0,
                   direct_source = 0;  ///< of Renderer::light_sources(); TRIAD_NONE: nothing came
     vec3 throughput{0.0f};            ///< of what goes on, roulette included
+    /// That ends here. It falls where the path goes back to the surface that parted its wavelengths, and on
+    /// with another.
+    unsigned edge = 1;
+    float wavelength = 0;  ///< that the path came with, in nm; 0: all of them
 };
 
 struct RecordedPath {
     std::uint64_t sample = 0;
     unsigned bin = 0, half = 0;
-    unsigned edges = 0, rays = 0;
-    vec4 value{0.0f};  ///< radiance and alpha, as they enter the film
+    unsigned met = 0, rays = 0;  ///< vertices, over all wavelengths
+    vec4 value{0.0f};            ///< radiance and alpha, as they enter the film
     std::vector<RecordedVertex>
         vertices;  ///< the first PATH_VERTICES; the last has what all later ones found
 };

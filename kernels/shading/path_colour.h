@@ -10,6 +10,9 @@
 #include "shading/vertex_bsdf.h"
 
 #define PATH_WAVELENGTH_SET 2u /* of random numbers: the samples of a pixel share the spectrum out evenly */
+/* That a path is followed with from its first dispersive surface on. Three have a quarter of the error of one
+ * for at most twice the time; four are no better (docs/spectral.md). */
+#define PATH_WAVELENGTHS 3u
 
 #if TRIAD_HERO
 
@@ -54,6 +57,10 @@ TRIAD_FUNCTION float3 path_rgb(const PathColour* c, Colour found) {
     return (float3)(r.x + r.y + r.z + r.w, g.x + g.y + g.z + g.w, b.x + b.y + b.z + b.w);
 }
 #define path_found path_rgb
+TRIAD_FUNCTION float path_share(const PathColour* c) {
+    (void)c;
+    return 1.0f;
+}
 
 #if TRIAD_DISPERSION
 TRIAD_FUNCTION int path_has_others(const PathColour* c) { return c->share.y > 0.0f; }
@@ -95,16 +102,26 @@ typedef struct PathColour {
 #if TRIAD_DISPERSION
     /* what the path finds with one wavelength counts by `filter`; what it found before */
     float3 filter, before;
+    float share; /* of the path that goes on with this wavelength */
 #endif
 } PathColour;
 
 #if TRIAD_DISPERSION
-/* From here on the path has one wavelength. */
-TRIAD_FUNCTION void path_draw_wavelength(PathColour* c, const Scene* scene, const Sampler* sampler,
+/* Goes on with another wavelength: one of the whole spectrum. */
+TRIAD_FUNCTION void path_take_wavelength(PathColour* c, const Scene* scene, float u, float share,
                                          float3* radiance) {
-    c->wavelength = spectrum_sample(scene->spectrum, sampler_2d(sampler, PATH_WAVELENGTH_SET).x, &c->filter);
-    c->before = *radiance;
+    c->before = fma(c->filter, *radiance, c->before);
     *radiance = (float3)(0.0f);
+    c->wavelength = spectrum_sample(scene->spectrum, u, &c->filter);
+    c->filter *= share;
+    c->share = share;
+}
+/* The branch-th of PATH_WAVELENGTHS, which share the spectrum out evenly. */
+TRIAD_FUNCTION void path_draw_wavelength(PathColour* c, const Scene* scene, const Sampler* sampler,
+                                         uint branch, float3* radiance) {
+    const float share = 1.0f / (float)PATH_WAVELENGTHS,
+                u = sampler_2d(sampler, PATH_WAVELENGTH_SET).x + convert_float(branch);
+    path_take_wavelength(c, scene, math_min(u * share, 0.99999994f), share, radiance);
 }
 #endif
 
@@ -114,8 +131,10 @@ TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* s
 #if TRIAD_DISPERSION
     c.filter = (float3)(1.0f);
     c.before = (float3)(0.0f);
+    c.share = 1.0f;
     float3 nothing = (float3)(0.0f);
-    if (scene->frame->wavelength_from_camera) path_draw_wavelength(&c, scene, sampler, &nothing);
+    if (scene->frame->wavelength_from_camera)
+        path_take_wavelength(&c, scene, sampler_2d(sampler, PATH_WAVELENGTH_SET).x, 1.0f, &nothing);
 #else
     (void)scene, (void)sampler;
 #endif
@@ -126,6 +145,16 @@ TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelength
 TRIAD_FUNCTION Colour path_colour(const PathColour* c, float3 rgb) {
     (void)c;
     return rgb;
+}
+
+/* How much of a path goes on with the present wavelength. */
+TRIAD_FUNCTION float path_share(const PathColour* c) {
+#if TRIAD_DISPERSION
+    return c->share;
+#else
+    (void)c;
+    return 1.0f;
+#endif
 }
 
 /* What a contribution adds to the film; path_rgb: all that was found, the last of it since the wavelength was

@@ -16,15 +16,17 @@ typedef struct Recorder {
     uint vertices;
 } Recorder;
 
-TRIAD_FUNCTION global PathVertex* record_at(const Recorder* r, uint edge) {
-    return r->path + (edge <= PATH_VERTICES ? edge : PATH_VERTICES) - 1u;
+/* The present vertex. The last one kept stands for all later ones. */
+TRIAD_FUNCTION global PathVertex* record_at(const Recorder* r) {
+    return r->path + min(r->vertices, (uint)PATH_VERTICES) - 1u;
 }
 
-/* The edge-th edge ended here: the first call for an edge. The last vertex kept stands for all later ones. */
-TRIAD_FUNCTION void record_vertex(Recorder* r, uint edge, float3 position, const Hit* hit, uint material) {
-    r->vertices = edge;
-    global PathVertex* v = record_at(r, edge);
-    if (edge <= PATH_VERTICES) {
+/* The edge-th edge ended here: the first call for a vertex. */
+TRIAD_FUNCTION void record_vertex(Recorder* r, uint edge, float wavelength, float3 position, const Hit* hit,
+                                  uint material) {
+    ++r->vertices;
+    global PathVertex* v = record_at(r);
+    if (r->vertices <= PATH_VERTICES) {
         vstore3((float3)(0.0f), 0, v->found);
         vstore3((float3)(0.0f), 0, v->direct);
         v->light = TRIAD_NONE;
@@ -36,27 +38,27 @@ TRIAD_FUNCTION void record_vertex(Recorder* r, uint edge, float3 position, const
     v->material = material;
     v->event = BSDF_NONE;
     v->end = PATH_GOES_ON;
-    v->unused[0] = v->unused[1] = 0u;
+    v->edge = edge;
+    v->wavelength = wavelength;
 }
 
-TRIAD_FUNCTION void record_end(const Recorder* r, uint edge, uint why) { record_at(r, edge)->end = why; }
+TRIAD_FUNCTION void record_end(const Recorder* r, uint why) { record_at(r)->end = why; }
 
-TRIAD_FUNCTION void record_found(const Recorder* r, uint edge, float3 radiance) {
-    global PathVertex* v = record_at(r, edge);
+TRIAD_FUNCTION void record_found(const Recorder* r, float3 radiance) {
+    global PathVertex* v = record_at(r);
     vstore3(vload3(0, v->found) + radiance, 0, v->found);
 }
 
 /* `pick` is the number that light_sample() picked the light with. */
-TRIAD_FUNCTION void record_direct(const Recorder* r, uint edge, float3 radiance, const Scene* scene,
-                                  uint pick) {
-    global PathVertex* v = record_at(r, edge);
+TRIAD_FUNCTION void record_direct(const Recorder* r, float3 radiance, const Scene* scene, uint pick) {
+    global PathVertex* v = record_at(r);
     float unused;
     v->light = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
     vstore3(vload3(0, v->direct) + radiance, 0, v->direct);
 }
 
-TRIAD_FUNCTION void record_event(const Recorder* r, uint edge, uint event, float3 throughput) {
-    global PathVertex* v = record_at(r, edge);
+TRIAD_FUNCTION void record_event(const Recorder* r, uint event, float3 throughput) {
+    global PathVertex* v = record_at(r);
     v->event = event;
     vstore3(throughput, 0, v->throughput);
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "analytic/analytic_scene.h"
 #include "kernels/types.h"
@@ -80,6 +81,22 @@ TEST(Record, wavelengths_add_up_as_colours_do) {
             coloured += path.value[0] < 0;
         }
         EXPECT_EQ(sum, r.film.sums[0]);
+        unsigned forked = 0;
+        for (const RecordedPath& path : r.paths) {
+            std::set<float> wavelengths;
+            unsigned returns = 0;
+            for (std::size_t k = 1; k < path.vertices.size(); ++k) {
+                wavelengths.insert(path.vertices[k].wavelength);
+                returns += path.vertices[k].edge <= path.vertices[k - 1].edge;
+            }
+            wavelengths.erase(0.0f);
+            forked += returns == 2 && wavelengths.size() > 1;
+            if (spectral != Spectral::automatic) {
+                EXPECT_EQ(returns, 0u);
+            }
+        }
+        // three wavelengths, one after the other
+        EXPECT_EQ(forked > 100, spectral == Spectral::automatic) << forked;
         // single wavelengths leave the gamut; classic cuts them
         if (spectral != Spectral::full) {
             EXPECT_EQ(coloured > 0, spectral == Spectral::automatic) << coloured;
@@ -94,7 +111,7 @@ TEST(Record, every_path_is_the_sum_of_what_its_vertices_brought) {
         const vec3 sum = contributions(path);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], path.value[c], 1e-5f * path.value[c]);
         lit += path.value.x > 0;
-        longest = std::max(longest, path.edges);
+        longest = std::max(longest, path.met);
         ASSERT_FALSE(path.vertices.empty());
         EXPECT_NE(path.vertices.back().end, unsigned(PATH_GOES_ON));
         for (std::size_t k = 0; k + 1 < path.vertices.size(); ++k)
@@ -116,8 +133,8 @@ TEST(Record, paths_longer_than_what_is_kept_lose_nothing) {
     const Recorded r = record(b.scene, 5, 5, 1);
     unsigned long_ones = 0;
     for (const RecordedPath& path : r.paths) {
-        long_ones += path.edges > PATH_VERTICES;
-        EXPECT_EQ(path.vertices.size(), std::min<std::size_t>(path.edges, PATH_VERTICES));
+        long_ones += path.met > PATH_VERTICES;
+        EXPECT_EQ(path.vertices.size(), std::min<std::size_t>(path.met, PATH_VERTICES));
         EXPECT_NEAR(contributions(path).x, path.value.x, 1e-4f * path.value.x);
     }
     EXPECT_GT(long_ones, 50u);
@@ -179,8 +196,8 @@ TEST(Record, depths_count_edges_as_max_depth_does) {
     const Recorded r = record(analytic::varied_scene(), 18, 20, 1, 2);
     ASSERT_LE(r.report.depths.size(), 2u);
     for (const RecordedPath& path : r.paths) {
-        EXPECT_LE(path.edges, 2u);
-        EXPECT_TRUE(path.vertices.back().end != PATH_LONGEST || path.edges == 2);
+        EXPECT_LE(path.met, 2u);
+        EXPECT_TRUE(path.vertices.back().end != PATH_LONGEST || path.met == 2);
     }
 }
 
