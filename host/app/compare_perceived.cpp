@@ -34,11 +34,27 @@ Shown open(const std::string& path) {
 
 /// A picture that was made for one panel is right on no other.
 void check_made_for(const Shown& shown, const Panel& panel) {
-    const auto made_for = shown.file.metadata.find("triad:panel");
-    if (made_for != shown.file.metadata.end() && made_for->second != panel.name)
-        throw Error(Exit::comparison, shown.path + " was made for the panel " + made_for->second +
-                                          " and is measured on it alone: give --panel " + made_for->second +
-                                          ".");
+    const Metadata& data = shown.file.metadata;
+    const auto made_for = data.find("triad:panel"), id = data.find("triad:panel_id");
+    if (made_for == data.end() ||
+        (id == data.end() ? made_for->second == panel.name : id->second == panel_id(panel)))
+        return;
+    throw Error(Exit::usage, shown.path + " was made for the panel " + made_for->second +
+                                 ", whose emitters are others than those of " + panel.name +
+                                 ", and is measured on it alone: give it, or its file, to --panel.");
+}
+
+/// A render in scene values shows something else than one that a tone map made fit for a display.
+void check_shown_alike(const Shown& a, const Shown& b) {
+    const auto in_scene_values = [](const Shown& s) {
+        return !s.file.encoded && s.file.metadata.contains("triad:spp") &&
+               !s.file.metadata.contains("triad:values");
+    };
+    if (in_scene_values(a) == in_scene_values(b)) return;
+    const Shown& scene = in_scene_values(a) ? a : b;
+    warn(scene.path + " has scene values and " + (&scene == &a ? b : a).path +
+         " has been through a tone map, so that most of their difference may be that. `triad resolve " +
+         scene.path + " --reconstruct pane:1 -o FILE.exr` makes a file of what a display shows.");
 }
 
 void cut(RgbImage& image, const std::string& path) {
@@ -138,9 +154,10 @@ Json compare_perceived(const std::string& a, const std::string& b, const Perceiv
     const unsigned samples = samples_per_pixel(picture.light, reference.light);
     check_made_for(picture, panel);
     if (reference.file.metadata.contains("triad:panel"))
-        throw Error(Exit::comparison, reference.path +
-                                          " was made for a panel; a reference must show what is, not what "
-                                          "lights emitters.");
+        throw Error(Exit::usage, reference.path +
+                                     " was made for a panel; a reference must show what is, not what lights "
+                                     "emitters.");
+    check_shown_alike(reference, picture);
     cut(reference.light, reference.path);
 
     Json row = {{"picture", picture.path},

@@ -58,6 +58,7 @@ void describe(const Reconstruction& method, Metadata& metadata) {
     if (!method.filter.empty()) metadata["triad:filter"] = method.filter;
     if (!method.panel) return;
     metadata["triad:panel"] = method.panel->panel.name;
+    metadata["triad:panel_id"] = panel_id(method.panel->panel);
     metadata["triad:ppd"] = number(method.panel->ppd);
 }
 

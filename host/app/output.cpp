@@ -107,6 +107,15 @@ void check_format(const std::string& path) {
         "-o " + path + ": the extension must be .exr, .hdr, .png or .jpg (or - for PNG on standard output).");
 }
 
+void check_format_for(const Reconstruction& method, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (method.panel && extension_of(path) == ".hdr")
+            throw Error(Exit::usage,
+                        "-o " + path +
+                            ": .hdr files cannot say which panel they were made for, and on others "
+                            "they are wrong. Give .exr or .png, or leave --panel out.");
+}
+
 void check_writable(const std::string& path) {
     if (path == "-") return;
     if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path + ": it is a folder.");

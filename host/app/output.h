@@ -32,6 +32,8 @@ bool is_picture(const std::string& path);
 bool is_linear(const std::string& path);
 /// Throws Error(usage) when `path` ("-" is standard output, as PNG) has no extension of a picture.
 void check_format(const std::string& path);
+/// What only files that can say so may hold: Throws Error(usage) for drives of a panel in a .hdr file.
+void check_format_for(const Reconstruction& method, const std::vector<std::string>& paths);
 /// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.
 void check_writable(const std::string& path);
 

@@ -108,7 +108,8 @@ Exit run(RenderOptions o) {
     detail(format("Loaded in %.2f s, trees and packing %.2f s, kernels %.2f s, %s on the device", load_s,
                   renderer.build_seconds(), renderer.compile_seconds(),
                   bytes_text(renderer.device_bytes()).c_str()));
-    detail("Integrator: " + renderer.integrator());
+    const bool told = o.integrator == Integrator::automatic && renderer.photons() > 0;
+    (told ? inform : detail)("Integrator: " + renderer.integrator());
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 
     if (o.pixel) {

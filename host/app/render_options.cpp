@@ -276,6 +276,13 @@ void complete(RenderOptions& o) {
             "Photons light the picture as a whole: --integrator photons, light and photon-map cannot be "
             "combined with --pixel or --adaptive on; use --integrator path there.");
     if (o.pixel || o.adaptive.value_or(false)) o.integrator = Integrator::path;
+    if (o.integrator == Integrator::path && (o.photons || o.photon_radius > 0 || !o.aim_photons))
+        throw Error(Exit::usage,
+                    "--photons, --photon-radius and --photon-aim are for photons, and here paths bring all "
+                    "light: give "
+                    "--integrator photons, light or photon-map.");
+    if (o.integrator != Integrator::photon_map && !o.final_gather)
+        throw Error(Exit::usage, "--final-gather is for --integrator photon-map.");
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);
@@ -293,6 +300,7 @@ void complete(RenderOptions& o) {
             "--samples names exactly what is rendered: it cannot be combined with --spp, --error, --time or "
             "--adaptive on.");
     o.style.reconstruction = o.reconstruct.make();
+    check_format_for(o.style.reconstruction, o.outputs);
     const std::uint64_t bins = o.style.reconstruction.bins_x * o.style.reconstruction.bins_y;
     if (o.samples && (o.samples->begin % bins != 0 || o.samples->end % bins != 0))
         throw Error(Exit::usage, "--samples: with " + std::to_string(bins) +

@@ -71,6 +71,7 @@ void resolve_image(ResolveOptions& o) {
                         " holds sRGB values that are tone-mapped already: --exposure and --tonemap "
                         "are for films and for EXR and HDR pictures.");
     o.style.reconstruction = o.reconstruct.make();
+    check_format_for(o.style.reconstruction, o.outputs);
     const Reconstruction& method = o.style.reconstruction;
     if (method.ray_start == RayStart::filter)
         throw Error(Exit::usage,

@@ -130,6 +130,7 @@ std::optional<Panel> builtin_panel(const std::string& name) {
             return {};
         rest.remove_prefix(end);
     }
+    panel.name = name;
     return panel;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/text.h"
 #include "panel/aperture.h"
 
@@ -149,5 +150,25 @@ std::vector<Output> panel_outputs(const Panel& panel) {
 }
 
 double pixels_per_degree(double distance, double pitch) { return distance / pitch * pi / 180; }
+
+std::string panel_id(const Panel& panel) {
+    const auto rounded = [](double v) { return std::llround(1e6 * v); };
+    std::vector<std::vector<long long>> all;
+    for (const Emitter& e : panel.emitters) {
+        std::vector<std::vector<long long>> corners;
+        for (const dvec2& c : e.aperture.corners) corners.push_back({rounded(c.x), rounded(c.y)});
+        std::sort(corners.begin(), corners.end());
+        all.push_back({long(e.feed), e.pixel_x, e.pixel_y, rounded(e.chromaticity.x),
+                       rounded(e.chromaticity.y), rounded(e.luminance), rounded(e.centre.x),
+                       rounded(e.centre.y), rounded(e.aperture.radius)});
+        for (const auto& corner : corners) all.back().insert(all.back().end(), corner.begin(), corner.end());
+    }
+    std::sort(all.begin(), all.end());
+    Hash hash;
+    hash.add_value(panel.cell_x).add_value(panel.cell_y);
+    for (const auto& emitter : all)
+        for (const long long v : emitter) hash.add_value(v);
+    return hash.hex().substr(0, 8);
+}
 
 }  // namespace triad

@@ -55,6 +55,10 @@ const std::vector<Panel>& builtin_panels();
 /// (mirrored left to right), made in that order: "qd-oled@180". Nothing when there is no such panel.
 std::optional<Panel> builtin_panel(const std::string& name);
 
+/// Names what the panel does with its drives, whatever it is called: cell, feeds, light and places of the
+/// emitters as they lie on the screen, to a millionth of a pixel. Eight digits.
+std::string panel_id(const Panel& panel);
+
 /// The screen turned clockwise, a quarter at a time.
 Panel turned(const Panel& panel, unsigned quarter_turns);
 /// The screen mirrored left to right.

@@ -114,16 +114,26 @@ Emitter emitter_of(const Member& m) {
     return e;
 }
 
+constexpr double least_ppd = 5, most_ppd = 1000;  ///< that taps are designed for
+
 /// Degrees from the members ppd, or distance and pitch.
 std::optional<double> ppd_of(const Member& m) {
     if (m.has("distance") != m.has("pitch"))
         m.fail("must have \"distance\" and \"pitch\" together, in the same unit.");
     if (m.has("ppd") && m.has("pitch")) m.fail("must have either \"ppd\" or \"distance\" and \"pitch\".");
-    if (m.has("ppd")) return m["ppd"].number();
+    if (m.has("ppd")) {
+        const double ppd = m["ppd"].number();
+        if (!(ppd >= least_ppd && ppd <= most_ppd)) m["ppd"].fail("must be 5 to 1000.");
+        return ppd;
+    }
     if (!m.has("pitch")) return {};
     const double distance = m["distance"].number(), pitch = m["pitch"].number();
     if (!(distance > 0 && pitch > 0)) m.fail("must have a \"distance\" and a \"pitch\" above 0.");
-    return pixels_per_degree(distance, pitch);
+    const double ppd = pixels_per_degree(distance, pitch);
+    if (!(ppd >= least_ppd && ppd <= most_ppd))
+        m.fail("has a \"distance\" and a \"pitch\" of " + std::to_string(ppd) +
+               " pixels per degree; 5 to 1000 are possible.");
+    return ppd;
 }
 
 PanelAdvice advice_of(const Member& m) {

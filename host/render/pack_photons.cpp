@@ -134,8 +134,8 @@ dvec3 point_of(const dev::Light& l) {
     return p;
 }
 
-/// Whose radius is less than this share of the distance to the nearest caster, each emissive geometry as a
-/// whole.
+/// Emissive geometries, each as a whole, that are small beside their distance to the nearest caster: whose
+/// radius is less than this share of it, or that of a disc of their area less than half as much (thin tubes).
 std::vector<bool> small_triangle_lights(const PackedScene& packed, double share) {
     std::vector<bool> small(packed.lights.size());
     for (std::size_t g = 0; g < packed.geometries.size(); ++g) {
@@ -143,6 +143,7 @@ std::vector<bool> small_triangle_lights(const PackedScene& packed, double share)
         if (first == TRIAD_NONE) continue;
         std::size_t end = first;
         Bounds light;
+        double area = 0;
         for (; end < packed.lights.size() && packed.lights[end].type == LIGHT_TRIANGLE &&
                packed.triangles[packed.lights[end].primitive].geometry == g;
              ++end) {
@@ -151,14 +152,16 @@ std::vector<bool> small_triangle_lights(const PackedScene& packed, double share)
             for (const dvec3& q : {p, p + dvec3(l.edge1[0], l.edge1[1], l.edge1[2]),
                                    p + dvec3(l.edge2[0], l.edge2[1], l.edge2[2])})
                 light.add(q);
+            area += l.area;
         }
+        const double radius = std::min(light.radius(), 2 * std::sqrt(area / pi));
         double distance = INFINITY;
         for (const dev::Caster& c : packed.casters)
             distance = std::min(
                 distance,
                 glm::length(dvec3(c.centre[0], c.centre[1], c.centre[2]) - light.centre()) - c.radius);
         const bool near = share_from(packed.casters, light.centre()) > near_share;
-        if (light.radius() < (near ? near_light : share) * distance)
+        if (radius < (near ? near_light : share) * distance)
             for (std::size_t i = first; i < end; ++i) small[i] = true;
     }
     return small;
@@ -180,12 +183,7 @@ bool has_sun(const Scene& scene) {
 }
 
 /// The classic method traces all light from its sources.
-void refuse_for_map(const Scene& scene, const RenderSettings& settings, const PackedScene& packed) {
-    if (settings.ray_start == RayStart::filter || settings.spectral == Spectral::full)
-        throw Error(
-            Exit::usage,
-            "--integrator photon-map goes with neither random3 nor --spectral full: its photons carry RGB "
-            "or one wavelength, for whole pixels.");
+void refuse_for_map(const Scene& scene, const PackedScene& packed) {
     if (packed.lights.empty())
         throw Error(Exit::scene,
                     "--integrator photon-map: the scene has no lamp and no map to emit photons.");
@@ -207,8 +205,14 @@ void pack_photons(const Scene& scene, const RenderSettings& settings, PackedScen
         packed.integrator = "path: " + why;
     };
     const bool map = settings.integrator == Integrator::photon_map;
-    if (map) refuse_for_map(scene, settings, packed);
     if (settings.integrator == Integrator::path) return paths("as asked");
+    if (settings.integrator != Integrator::automatic &&
+        (settings.ray_start == RayStart::filter || settings.spectral == Spectral::full))
+        throw Error(
+            Exit::usage,
+            "--integrator photons, light and photon-map go with neither random3 nor --spectral full: photons "
+            "carry RGB or one wavelength, for whole pixels.");
+    if (map) refuse_for_map(scene, packed);
     if (settings.ray_start == RayStart::filter) return paths("rays start by a pixel filter");
     if (settings.spectral == Spectral::full) return paths("photons carry RGB or one wavelength, not four");
     if (packed.lights.empty()) return paths("nothing that photons could come from");
@@ -239,7 +243,7 @@ void pack_photons(const Scene& scene, const RenderSettings& settings, PackedScen
         if (l.type == LIGHT_ENVIRONMENT) packed.environment.photons = 1;
         any |= !automatic || l.type != LIGHT_TRIANGLE || reason[i];
     }
-    if (!any) return paths("every light is large, and paths find it");
+    if (!any) return paths("no light is small enough for photons");
     packed.photon_lights_shape = cdf_shape(weights.size());
     packed.photon_lights.resize(packed.photon_lights_shape.size);
     write_cdf_tree(packed.photon_lights_shape, integer_cdf(weights), packed.photon_lights.data());

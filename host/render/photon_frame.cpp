@@ -11,6 +11,8 @@ namespace {
 /// The first radius of gathering: in pixels, as the nearest caster is seen, and such that so many photons
 /// would lie in it if all were spread over the casters' discs, but no more than this share of the scene.
 constexpr double first_pixels = 2, first_photons = 32, most_radius = 0.05;
+/// Photons with a sample of a large picture, if nobody asks for more: half a gigabyte in the map.
+constexpr std::uint64_t most_usual = 1 << 24;
 /// Share of the photons of a sample by which later radii keep theirs (alpha of Knaus and Zwicker 2011).
 constexpr double shrinking = 2.0 / 3.0;
 /// Of the extent of the scene: below it, single precision cannot tell places apart.
@@ -53,7 +55,8 @@ double photon_radius(const PackedScene& packed, const RenderSettings& settings, 
 dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings& settings,
                                  const dev::Frame& frame) {
     const bool map = packed.chosen == Integrator::photon_map;
-    const std::uint64_t usual = map ? 1000000 : std::uint64_t(settings.width) * settings.height;
+    const std::uint64_t usual =
+        map ? 1000000 : std::min(most_usual, std::uint64_t(settings.width) * settings.height);
     const std::uint64_t count = settings.photons ? settings.photons : usual;
     if (count > 0xffffffffull)
         throw Error(Exit::usage, "--photons " + std::to_string(count) +

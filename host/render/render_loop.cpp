@@ -194,6 +194,7 @@ class RenderLoop {
         s_.launch_photons(0, s_.photons);
         s_.device.finish();
         s_.photon_seconds += seconds() - began;
+        s_.device.fill_zero(s_.counters);  // every part of a render makes it anew
         s_.has_classic_map = true;
     }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what wavelengths cost and draws the plots of docs/spectral.md: ./study.py TRIAD [FOLDER]. Needs python3-numpy.
+"""Measures what wavelengths cost and draws the plots of docs/spectral.md: ./study.py TRIAD [FOLDER]. Needs python3-numpy and python3-openimageio.
 
 Every scheme renders every scene with 4, 16, 64 ... samples per pixel and once with many, which is its reference. Errors are
 relMSE (mean square of a pixel's channels over that of the reference + .01; the worst pixel of a thousand is
@@ -8,13 +8,12 @@ import json
 import math
 import pathlib
 import resource
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 
 import numpy
+import OpenImageIO
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.dont_write_bytecode = True
@@ -30,37 +29,6 @@ SAMPLES, REFERENCE, SEEDS = [4, 16, 64, 256], 4096, 3
 LUMINANCE = numpy.array([0.2126, 0.7152, 0.0722])
 
 
-def read_exr(path):
-    """Height x width x 3 of a scanline EXR with float channels B, G, R and ZIP compression, as triad writes it."""
-    data = path.read_bytes()
-    at, header = 8, {}
-    while data[at]:
-        name, kind, rest = data[at:].split(b"\0", 2)
-        at += len(name) + len(kind) + 2
-        size = struct.unpack_from("<i", data, at)[0]
-        header[name] = data[at + 4:at + 4 + size]
-        at += 4 + size
-    x0, y0, x1, y1 = struct.unpack("<4i", header[b"dataWindow"])
-    width, height = x1 - x0 + 1, y1 - y0 + 1
-    channels = header[b"channels"].count(b"\x02\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0")
-    assert header[b"compression"] == b"\x03" and channels == 3
-    out = numpy.zeros((height, width, 3), numpy.float32)
-    for offset in struct.unpack_from(f"<{(height + 15) // 16}Q", data, at + 1):
-        y, size = struct.unpack_from("<2i", data, offset)
-        rows = min(16, height - (y - y0))
-        packed = data[offset + 8:offset + 8 + size]
-        if size < rows * width * 12:
-            deltas = numpy.frombuffer(zlib.decompress(packed), numpy.uint8).astype(numpy.int64)
-            deltas[1:] -= 128
-            halves = (numpy.cumsum(deltas) & 255).astype(numpy.uint8)
-            half = (len(halves) + 1) // 2
-            raw = numpy.empty(len(halves), numpy.uint8)
-            raw[0::2], raw[1::2] = halves[:half], halves[half:]
-            packed = raw.tobytes()
-        out[y - y0:y - y0 + rows] = numpy.frombuffer(packed, "<f4").reshape(rows, 3, width)[:, ::-1].transpose(0, 2, 1)
-    return out
-
-
 def render(triad, folder, scene, options, spp, seed, size="48x36"):
     """The picture, and the processor time that it took."""
     out = folder / "picture.exr"
@@ -68,7 +36,8 @@ def render(triad, folder, scene, options, spp, seed, size="48x36"):
     subprocess.run([triad, "render", str(HERE.parent / scene), "--size", size, "--spp", str(spp), "--seed", str(seed), "-q",
                     "-o", str(out), *options], check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return read_exr(out).astype(float), after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    picture = OpenImageIO.ImageBuf(str(out)).get_pixels(OpenImageIO.FLOAT).astype(float)
+    return picture, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def errors(picture, reference):

@@ -256,20 +256,25 @@ TEST(Photons, the_classic_map_is_as_bright_as_paths_but_for_its_blur) {
     }
 }
 
-TEST(Photons, parts_sizes_and_threads_change_no_bit) {
+TEST(Photons, parts_and_work_group_sizes_change_no_bit) {
     Scene scene = with_square_light();
     validate(scene);
-    const auto film = [&](Device& device, const std::vector<SampleRange>& ranges) {
-        return picture_case::render(device, scene, settings_of(Integrator::photons), ranges);
-    };
-    Device& device = test_device();
-    const Film whole = film(device, {{0, 5}});
-    const std::size_t before = device.preferred_local();
-    device.set_preferred_local(before == 1 ? 64 : 1);
-    const Film other = film(device, {{3, 5}, {0, 3}});
-    device.set_preferred_local(before);
-    EXPECT_EQ(whole.sums, other.sums);
-    EXPECT_EQ(whole.half_sums, other.half_sums);
+    for (const Integrator integrator : {Integrator::photons, Integrator::photon_map}) {
+        RenderSettings settings = settings_of(integrator);
+        settings.photons = 4000;
+        const auto film = [&](Device& device, const std::vector<SampleRange>& ranges) {
+            return picture_case::render(device, scene, settings, ranges);
+        };
+        Device& device = test_device();
+        const Film whole = film(device, {{0, 5}});
+        const std::size_t before = device.preferred_local();
+        device.set_preferred_local(before == 1 ? 64 : 1);
+        const Film other = film(device, {{3, 5}, {0, 3}});
+        device.set_preferred_local(before);
+        EXPECT_EQ(whole.sums, other.sums);
+        EXPECT_EQ(whole.half_sums, other.half_sums);
+        EXPECT_EQ(whole.counters, other.counters);
+    }
 }
 
 TEST(Photons, are_used_only_where_something_casts_a_small_light) {
@@ -286,6 +291,9 @@ TEST(Photons, are_used_only_where_something_casts_a_small_light) {
     EXPECT_FALSE(chosen(middling.scene, Integrator::automatic)) << "no reason by itself";
     EXPECT_FALSE(chosen(with_square_light(), Integrator::automatic)) << "a large light";
     EXPECT_TRUE(chosen(with_square_light(), Integrator::photons));
+    Builder tube = casters();
+    tube.add(shapes::quad({-1.5f, 5, 0}, {3, 0, 0}, {0, 0, 0.02f}), emitter(200.0f));
+    EXPECT_TRUE(chosen(tube.scene, Integrator::automatic)) << "long and thin";
     Builder plain;
     plain.add(square(0, true), lambert(0.5f));
     plain.scene.lights.push_back({});

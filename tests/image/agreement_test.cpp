@@ -27,7 +27,7 @@ std::vector<Batch> render(Scene scene, std::uint32_t first_seed, unsigned bins =
         settings.spectral = spectral;
         settings.view = room_view();
         Renderer renderer(test_device(), scene, settings);
-        RenderGoal goal{.samples = {0, spp}, .adaptive = adaptive};
+        RenderGoal goal{.samples = {0, std::max(spp, 8 * bins * bins)}, .adaptive = adaptive};
         if (for_a_panel) goal.set_errors = perceived_sets(test_device(), {*builtin_panel("rgb"), 45}, {});
         renderer.render_until(goal, [](const Progress&) { return true; });
         const Film film = renderer.film();
@@ -175,7 +175,9 @@ TEST(Agreement, adaptive_sampling_from_four_samples_on_changes_no_mean) {
 }
 
 TEST(Agreement, samples_by_perceived_error_change_no_mean) {
-    expect_agreement(render(lit_room(1, false), 1800, 1, 0, true, 0.8, Spectral::automatic, true));
+    for (const unsigned bins : {1u, 3u})
+        expect_agreement(
+            render(lit_room(1, false), 1800 + 100 * bins, bins, 0, true, 0.8, Spectral::automatic, true));
 }
 
 TEST(Agreement, one_tile_that_is_five_percent_brighter_is_found) {

@@ -26,6 +26,26 @@ TEST(PhotonCommand, what_cannot_be_is_refused_with_a_sentence) {
     expect_refused("--photons 5000000000", 1, "--photons");
     expect_refused("--integrator light --adaptive on", 1, "use --integrator path there");
     expect_refused("--integrator photon-map --pixel 3,3", 1, "--pixel");
+    expect_refused("--integrator path --photons 100", 1, "paths bring all light");
+    expect_refused("--integrator photons --final-gather off", 1, "for --integrator photon-map");
+    const std::string out = (fs::path(testing::TempDir()) / "full.png").string();
+    for (const std::string integrator : {"photons", "light", "photon-map"}) {
+        const Outcome outcome = run_triad("render " + cubo + " --size 8x8 --spectral full --integrator " +
+                                          integrator + " -o " + out);
+        EXPECT_EQ(outcome.exit, 1) << integrator;
+        EXPECT_NE(outcome.output.find("neither random3 nor --spectral full"), std::string::npos)
+            << outcome.output;
+    }
+}
+
+TEST(PhotonCommand, says_when_it_chose_photons_and_why) {
+    for (const char* scene : {"cubo", "prism"}) {
+        const Outcome outcome =
+            run_triad(std::string("render ") + TRIAD_SCENES "/spectral/" + scene +
+                      ".glb --size 8x8 --spp 1 -o " + (fs::path(testing::TempDir()) / "chosen.png").string());
+        EXPECT_NE(outcome.output.find("Integrator: photons: something casts"), std::string::npos)
+            << outcome.output;
+    }
 }
 
 TEST(PhotonCommand, more_photons_than_there_is_memory_for_are_refused_with_their_size) {

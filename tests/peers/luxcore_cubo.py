@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""LuxCore's picture of scenes/spectral/cubo.glb, for docs/spectral.md: ./luxcore_cubo.py SECONDS OUT.png [SIZE]. Needs pyluxcore, numpy.
+"""LuxCore's picture of scenes/spectral/cubo.glb, for docs/spectral.md: ./luxcore_cubo.py SECONDS OUT.png [SIZE [OUT.npy [SEED]]].
+SECONDS of two cores: half of the processor time. Needs pyluxcore, numpy.
 
 Its glass takes Cauchy's two terms: index and dispersion (n_F - n_C) of "cubo" at the d line. Paths from the camera and from the
 lights ("hybridbackforward"), one wavelength per path after dispersion, as it comes."""
@@ -112,15 +113,15 @@ def main():
         scene = build(pathlib.Path(name), width / height)
         properties = pyluxcore.Properties()
         for key, value in {"renderengine.type": "PATHCPU", "film.width": width, "film.height": height, "sampler.type": "SOBOL",
-                           "sampler.sobol.adaptive.strength": 0.0, "film.filter.type": "NONE", "path.pathdepth.total": 16,
-                           "path.pathdepth.diffuse": 16, "path.pathdepth.glossy": 16, "path.pathdepth.specular": 16,
-                           "path.hybridbackforward.enable": 1, "path.hybridbackforward.partition": 0.5,
+                           "sampler.sobol.adaptive.strength": 0.0, "film.filter.type": "NONE", "path.pathdepth.total": 64,
+                           "path.pathdepth.diffuse": 64, "path.pathdepth.glossy": 64, "path.pathdepth.specular": 64,
+                           "renderengine.seed": int(sys.argv[5]) if len(sys.argv) > 5 else 1, "path.hybridbackforward.enable": 1, "path.hybridbackforward.partition": 0.5,
                            "film.imagepipelines.0.0.type": "NOP", "film.outputs.0.type": "RGB", "film.outputs.0.filename": "x.exr"}.items():
             properties.Set(pyluxcore.Property(key, value))
         session = pyluxcore.RenderSession(pyluxcore.RenderConfig(properties, scene))
         session.Start()
-        begin = time.time()
-        while time.time() - begin < seconds:
+        begin = time.process_time()
+        while time.process_time() - begin < 2 * seconds:
             time.sleep(0.5)
             session.UpdateStats()
         samples = session.GetStats().Get("stats.renderengine.pass").GetFloat()

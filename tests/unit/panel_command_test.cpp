@@ -133,6 +133,16 @@ TEST(PerceivedCommand, refuses_what_would_mean_nothing) {
     expect(both + " --metric perceived,rmse --panel rgb", 1, "apart");
     expect(both + " --metric perceived --panel rgb --map x.jpg", 1, "x.jpg");
     expect("compare " + coarse + " " + coarse + " --metric perceived --panel rgb", 7, "3 or more");
-    expect("compare " + fine + " " + made + " --metric perceived --panel rgb", 7, "made for the panel bgr");
+    expect("compare " + fine + " " + made + " --metric perceived --panel rgb", 1, "made for the panel bgr");
     expect("compare " + fine + " " + made + " --metric perceived --panel bgr", 0, "scielab");
+    // a screen that stands upside down is not what its name alone says, but another screen
+    const std::string turned = (folder / "turned.exr").string(), compare = "compare " + fine + " " + turned;
+    expect("resolve " + fine + " --panel rgb@180 -o " + turned, 0, "");
+    expect(compare + " --metric perceived --panel rgb", 1, "made for the panel rgb@180");
+    expect(compare + " --metric perceived --panel rgb@180", 0, "scielab");
+    expect(compare + " --metric perceived --panel bgr", 0, "scielab");
+    expect("resolve " + fine + " --panel rgb -o " + (folder / "made.hdr").string(), 1,
+           "cannot say which panel");
+    const std::string scene = edge(folder, "scene.exr", 3, {{"triad:spp", "64"}});
+    expect("compare " + scene + " " + turned + " --metric perceived --panel bgr", 0, "has scene values");
 }

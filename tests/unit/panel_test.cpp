@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "panel/aperture.h"
@@ -51,6 +52,23 @@ TEST(Panel, a_display_upside_down_is_its_bgr_and_turned_back_is_itself) {
     EXPECT_GT(fed_by(named("vbgr"), Feed::red).centre.y, 0.8);
     EXPECT_NEAR(fed_by(named("qd-oled@180"), Feed::green).centre.y, 0.75, 1e-12);
     EXPECT_NEAR(named("woled@180").advice.shift.x, 0.125, 1e-12);
+}
+
+TEST(Panel, is_known_by_its_emitters_and_not_by_its_name) {
+    EXPECT_EQ(panel_id(named("bgr")), panel_id(named("rgb@180")));
+    EXPECT_EQ(panel_id(named("pentile")), panel_id(named("pentile@90@flip@flip@270")));
+    EXPECT_EQ(named("pentile@90").name, "pentile@90");
+    std::set<std::string> ids;
+    for (const Panel& panel : builtin_panels()) ids.insert(panel_id(panel));
+    EXPECT_EQ(ids.size(), builtin_panels().size());
+    for (const double shift : {1e-9, 0.01}) {
+        Panel moved = named("rgb");
+        moved.emitters[1].centre.x += shift;
+        EXPECT_EQ(panel_id(moved) == panel_id(named("rgb")), shift < 1e-6) << shift;
+    }
+    Panel other = named("rgb");
+    std::swap(other.emitters[0].feed, other.emitters[2].feed);
+    EXPECT_NE(panel_id(other), panel_id(named("rgb")));
 }
 
 TEST(Panel, turns_and_mirrors_are_recorded_as_mirror_then_turns) {
