@@ -30,9 +30,10 @@ CheckResult Check::result() const {
 const std::vector<CheckCase>& function_cases() {
     static const std::vector<CheckCase> cases = [] {
         std::vector<CheckCase> all;
-        for (const auto add : {add_layout, add_maths, add_random, add_sampling, add_traversal,
-                               add_traversal_reference, add_ggx, add_bsdf, add_bsdf_energy,
-                               add_light_samplers, add_lights, add_spectral, add_light_spectra, add_film})
+        for (const auto add :
+             {add_layout, add_maths, add_random, add_sampling, add_traversal, add_traversal_reference,
+              add_ggx, add_bsdf, add_bsdf_energy, add_light_samplers, add_lights, add_spectral,
+              add_light_spectra, add_film, add_photons})
             add(all);
         return all;
     }();
@@ -42,8 +43,8 @@ const std::vector<CheckCase>& function_cases() {
 const std::vector<CheckCase>& picture_cases() {
     static const std::vector<CheckCase> cases = [] {
         std::vector<CheckCase> all;
-        for (const auto add :
-             {add_invariance, add_energy, add_radiometry, add_spectral_pictures, add_hard_pictures})
+        for (const auto add : {add_invariance, add_energy, add_radiometry, add_spectral_pictures,
+                               add_hard_pictures, add_photon_pictures})
             add(all);
         return all;
     }();

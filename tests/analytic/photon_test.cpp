@@ -192,34 +192,6 @@ TEST(Photons, a_point_light_and_its_image_in_a_mirror_follow_the_inverse_square)
 }
 
 /// The floor in a mirror on the ceiling: no path finds the light that comes to it from either mirror.
-TEST(Photons, a_point_light_and_its_three_images_light_what_is_seen_in_a_mirror) {
-    Builder b;
-    b.add(shapes::quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), lambert(0.002f));  // dark: no light goes round
-    b.add(shapes::quad({1, -1, 2}, {0, 0, -4}, {0, 4, 0}), smooth_metal());
-    b.add(shapes::quad({-3, 2, -2}, {4, 0, 0}, {0, 0, 4}), smooth_metal());
-    PunctualLight light;
-    light.position = {0.3, 1.5, 0.2};
-    light.colour = vec3(5.0f);
-    b.scene.lights.push_back(light);
-    RenderSettings settings;
-    settings.width = settings.height = 8;
-    settings.integrator = Integrator::automatic;
-    settings.photons = 1 << 15;
-    settings.view = look_at({0, 1, 0}, {0, 2, 0}, 0.02, 1.0);
-    double expected = 0, sum = 0;
-    for (const double x : {0.3, 1.7})
-        for (const double y : {1.5, 2.5})
-            expected += 0.002 / pi * 5 * y / std::pow(x * x + y * y + 0.2 * 0.2, 1.5);
-    const Scene scene = b.scene;
-    for (settings.seed = 0; settings.seed < 4; ++settings.seed) {
-        Renderer renderer(test_device(), scene, settings);
-        renderer.render({0, 64}, [](const Progress&) { return true; });
-        const Film film = renderer.film();
-        for (std::size_t p = 0; p < film.pixels(); ++p) sum += pixel_mean(film, p)[1];
-    }
-    EXPECT_NEAR(sum / (4 * 64), expected, 0.003 * expected);
-}
-
 TEST(Photons, sunlight_comes_from_a_mirror_as_strong_as_from_the_sun) {
     PunctualLight light;
     light.type = PunctualLight::Type::directional;

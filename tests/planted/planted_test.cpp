@@ -37,6 +37,7 @@ const Fault faults[] = {
      ">> 3) - (level + 1u == levels ? 0u : 1u);", "S6"},
     {"unshuffled_sobol", "common/random.h", "random_owen_reversed((uint4)(s->index_reversed), hash)",
      "(uint4)(s->index_reversed)", "C18d"},
+    {"photon_cells_share_buckets", "shading/photon_map.h", "(c.y & 1u) << 1", "(c.y & 1u) << 2", "P1"},
     {"clamped_roulette", "shading/path.cl", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
     {"swapped_tangent", "common/frame.h", "(v.x), f->x, fma((float3)(v.y), f->y",
      "(v.x), f->y, fma((float3)(v.y), f->x", "C22"},

@@ -1,15 +1,17 @@
-// The photon map: the hash grid against all photons looked at one by one, and what lands of what is emitted.
-#include <gtest/gtest.h>
-
-#include <cmath>
+// Photons: the hash grid against all photons looked at one by one, what lands of what is emitted, and what
+// splats and gathering make of a light and its images in mirrors.
 #include <random>
 
-#include "analytic/analytic_scene.h"
+#include "check/cases.h"
+#include "check/kernels.h"
+#include "check/picture.h"
 #include "render/features.h"
 #include "render/photon_map.h"
 
 namespace triad {
 namespace {
+
+using namespace picture_case;
 
 const char* const source = R"(#include "common/language.h"
 #include "shading/photon_map.h"
@@ -50,8 +52,8 @@ kernel void land(global const float* places, uint count, global Photon* landed) 
 )";
 
 /// Photons in clusters on planes around the origin and far from it, and points among them.
-void expect_grid_finds_all(double extent, double radius, unsigned seed) {
-    const std::uint32_t photons = 20000, points = 400;
+void expect_grid_finds_all(Check& check, double extent, double radius, unsigned seed) {
+    const auto photons = std::uint32_t(check.count(20000, 2000)), points = photons / 50;
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(-1, 1);
     std::vector<float> places, queries;
@@ -62,9 +64,9 @@ void expect_grid_finds_all(double extent, double radius, unsigned seed) {
         to.push_back(float(extent) * (-cluster + size * unit(random)));
         to.push_back(float(extent) * (i % 2 ? 0.5f : -0.25f));
     }
-    Device& device = test_device();
+    Device& device = check.device;
     const Options plain = {{"TRIAD_SPECULAR", "0"}, {"TRIAD_TRANSMISSION", "0"}, {"TRIAD_DISPERSION", "0"}};
-    const Program program = device.build_source("photon_map_test", source, plain);
+    const Program program = device.build_source("photon_grid.cl", source, plain);
     PhotonMap map(device, photons);
     map.compile(plain);
     dev::Frame frame{};
@@ -90,21 +92,21 @@ void expect_grid_finds_all(double extent, double radius, unsigned seed) {
                    .add(from_all),
                points);
     const auto grid = device.download<float>(from_grid), all = device.download<float>(from_all);
-    std::size_t lit = 0;
-    for (std::size_t i = 0; i < grid.size(); ++i) lit += all[i] > 0;
-    EXPECT_EQ(grid, all) << "extent " << extent << ", radius " << radius;
-    EXPECT_GT(lit, points / 2) << "too few points find photons";
+    std::size_t lit = 0, differ = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) lit += all[i] > 0, differ += grid[i] != all[i];
+    check.at_most(double(differ), 0, "sums that differ, extent ", extent, ", radius ", radius);
+    check.above(double(lit), points / 10.0, "sums that find photons");
 }
 
-TEST(PhotonMap, the_grid_finds_exactly_the_photons_that_a_search_of_all_finds) {
-    expect_grid_finds_all(1, 0.02, 1);
-    expect_grid_finds_all(1, 0.6, 2);  // few cells, many photons in each
-    expect_grid_finds_all(1000, 4, 3);
-    expect_grid_finds_all(1e-3, 2e-5, 4);
+void grid_finds_all(Check& check) {
+    expect_grid_finds_all(check, 1, 0.02, 1);
+    expect_grid_finds_all(check, 1, 0.6, 2);  // few cells, many photons in each
+    expect_grid_finds_all(check, 1000, 4, 3);
+    expect_grid_finds_all(check, 1e-3, 2e-5, 4);
 }
 
 /// Traces photons through a scene without a camera's help, and returns those that landed.
-std::vector<dev::Photon> landed_in(Scene scene, std::uint64_t photons) {
+std::vector<dev::Photon> landed_in(Device& device, Scene scene, std::uint64_t photons) {
     validate(scene);
     RenderSettings settings;
     settings.width = settings.height = 8;
@@ -113,7 +115,6 @@ std::vector<dev::Photon> landed_in(Scene scene, std::uint64_t photons) {
     settings.view = look_at({0, 0, 0}, {0, 0, 1}, 1.0, 1.0);
     const PackedScene packed = pack(scene, settings);
     const dev::Frame frame = frame_of(packed, settings);
-    Device& device = test_device();
     PhotonMap map(device, photons);
     const DeviceScene on_device = upload(device, packed, settings, map.buffers());
     const Kernel trace = device.build("photon/photon.cl", options_of(features_of(scene, settings, packed)))
@@ -153,10 +154,10 @@ dvec3 unpacked(std::uint32_t packed, unsigned bits) {
 }
 
 /// Flux that lands within 4 sigma; of the first landings alone, or of all.
-void expect_landed(const Scene& scene, bool first_alone, double expected) {
-    const std::uint64_t n = 60000;
+void expect_landed(Check& check, const char* what, const Scene& scene, bool first_alone, double expected) {
+    const std::uint64_t n = check.count(60000, 4000);
     double sum = 0, squares = 0;
-    for (const dev::Photon& p : landed_in(scene, n)) {
+    for (const dev::Photon& p : landed_in(check.device, scene, n)) {
         const unsigned edges = p.direction & 127;
         if (edges == 0 || (first_alone && edges > 1)) continue;
         const double cosine = std::abs(glm::dot(unpacked(p.direction >> 8, 12), unpacked(p.normal >> 16, 8)));
@@ -164,34 +165,82 @@ void expect_landed(const Scene& scene, bool first_alone, double expected) {
         sum += flux, squares += flux * flux;
     }
     const double mean = sum / double(n), sigma = std::sqrt((squares / double(n) - mean * mean) / double(n));
-    EXPECT_NEAR(mean, expected, 4 * sigma + 1e-3 * expected);  // directions are kept to .1 degrees
-    EXPECT_LT(sigma, 0.01 * expected);
+    check.near(mean, expected, 4 * sigma + 1e-3 * expected, what);  // directions are kept to .1 degrees
+    check.also_at_most(sigma, 0.01 * expected * std::sqrt(60000.0 / double(n)), "noise of ", what);
 }
 
 /// A closed diffuse box around the origin.
-analytic::Builder room() {
-    analytic::Builder b;
-    Material wall = analytic::lambert(0.6f);
+Builder room() {
+    Builder b;
+    Material wall = lambert(0.6f);
     wall.double_sided = true;
     b.add(shapes::box({-1, -1, -1}, {1, 1, 1}), wall);
     return b;
 }
 
-TEST(PhotonMap, all_that_is_emitted_in_a_closed_box_lands_as_often_as_its_albedo_says) {
-    analytic::Builder b = room();
+void what_is_emitted_lands(Check& check) {
+    Builder point = room();
     PunctualLight light;
     light.position = {0.2, 0.1, -0.3};
     light.colour = vec3(2.0f);
-    b.scene.lights.push_back(light);
-    expect_landed(b.scene, true, 4 * pi * 2);
-    expect_landed(b.scene, false, 4 * pi * 2 / (1 - 0.6));
+    point.scene.lights.push_back(light);
+    expect_landed(check, "first landings", point.scene, true, 4 * pi * 2);
+    expect_landed(check, "all landings at albedo .6", point.scene, false, 4 * pi * 2 / (1 - 0.6));
+    Builder lamp = room();
+    lamp.add(shapes::quad({-0.3f, 0.5f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}), emitter(3.0f));
+    expect_landed(check, "a lamp's", lamp.scene, true, pi * 3 * 0.36);
 }
 
-TEST(PhotonMap, a_lamp_emits_what_its_radiance_and_area_say) {
-    analytic::Builder b = room();
-    b.add(shapes::quad({-0.3f, 0.5f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f}), analytic::emitter(3.0f));
-    expect_landed(b.scene, true, pi * 3 * 0.36);
+Material mirror() {
+    Material m;
+    m.metallic = 1, m.roughness = 0;
+    m.base_colour = {1, 1, 1, 1};
+    return m;
+}
+
+/// A floor that is lit by a point light and its three images in two mirrors, and seen in one of them: paths
+/// find the light alone, photons the images.
+void light_and_its_images(Check& check) {
+    Builder b;
+    b.add(shapes::quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), lambert(0.002f));  // dark: no light goes round
+    b.add(shapes::quad({1, -1, 2}, {0, 0, -4}, {0, 4, 0}), mirror());
+    b.add(shapes::quad({-3, 2, -2}, {4, 0, 0}, {0, 0, 4}), mirror());
+    PunctualLight light;
+    light.position = {0.3, 1.5, 0.2};
+    light.colour = vec3(5.0f);
+    b.scene.lights.push_back(light);
+    double expected = 0;
+    for (const double x : {0.3, 1.7})
+        for (const double y : {1.5, 2.5})
+            expected += 0.002 / pi * 5 * y / std::pow(x * x + y * y + 0.2 * 0.2, 1.5);
+    RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.integrator = Integrator::automatic;
+    settings.photons = 1 << 15;
+    settings.view = look_at({0, 1, 0}, {0, 2, 0}, 0.02, 1.0);
+    const unsigned seeds = 4, samples = unsigned(check.count(64, 8));
+    double sum = 0;
+    for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
+        const Film film = render(check.device, b.scene, settings, {{0, samples}});
+        for (std::size_t p = 0; p < film.pixels(); ++p) sum += pixel_mean(film, p)[1];
+    }
+    check.near(sum / (seeds * 64) / expected, 1, 0.003 * std::sqrt(64.0 / samples),
+               "radiance over the closed form");
 }
 
 }  // namespace
+
+void add_photons(std::vector<CheckCase>& cases) {
+    using enum CheckLevel;
+    cases.insert(cases.end(),
+                 {
+                     {"P1", "photon grid finds what a search of all finds", quick, grid_finds_all},
+                     {"P2", "photons land as energy says", standard, what_is_emitted_lands},
+                 });
+}
+
+void add_photon_pictures(std::vector<CheckCase>& cases) {
+    cases.push_back({"P3", "a light and its images in mirrors", CheckLevel::standard, light_and_its_images});
+}
+
 }  // namespace triad
