@@ -13,13 +13,14 @@ namespace triad {
 struct BinSource {
     unsigned width, height, columns, rows, bins_x, bins_y;
     bool encoded;
-    bool noisy;             ///< a film, whose samples tell how noisy its bins are
     float unit;             ///< of a film's sums
     bool rows_of_pixels;    ///< its buffers hold rows of pixels, else of bins
     std::size_t row_bytes;  ///< of these
     const char* kernel;     ///< of subpixel/bins.cl
     /// Uploads rows [first, first + count).
     std::function<Arguments(Device&, std::size_t first, std::size_t count)> upload;
+    /// Of a film whose bins may be noisy: uploads what its halves say of these rows, for weigh_noise.
+    std::function<Arguments(Device&, std::size_t first, std::size_t count)> halves = {};
 };
 
 class DisplayPipeline {

@@ -7,7 +7,7 @@ namespace triad {
 
 std::vector<float> resolve_display(Device& device, const Film& film, const DisplaySettings& settings) {
     if (film.pixels() == 0) return {};
-    const BinSource source{
+    BinSource source{
         .width = film.width,
         .height = film.height,
         .columns = film.width * film.bins_x,
@@ -15,7 +15,6 @@ std::vector<float> resolve_display(Device& device, const Film& film, const Displ
         .bins_x = film.bins_x,
         .bins_y = film.bins_y,
         .encoded = false,
-        .noisy = film.bins() > 1,
         .unit = std::ldexp(1.0f, -film.quanta_log2),
         .rows_of_pixels = true,
         .row_bytes = film.width * film.bins() * 4 * sizeof(std::int64_t),
@@ -26,6 +25,21 @@ std::vector<float> resolve_display(Device& device, const Film& film, const Displ
                 .add(to.upload(std::span(film.sums).subspan(first * bins, count * bins)))
                 .add(to.upload(std::span(film.samples).subspan(first * film.width, count * film.width)));
         }};
+    std::optional<HalfMeans> means;
+    if (film.bins() > 1 && settings.order == ToneOrder::noise_aware) {
+        means = half_means(film);
+        source.halves = [&](Device& to, std::size_t first, std::size_t count) {
+            const auto rows = [&](const std::vector<float>& values, std::size_t each) {
+                const std::size_t row = film.width * each;
+                return to.upload(std::span(values).subspan(first * row, count * row));
+            };
+            if (!means) return Arguments().add(Buffer()).add(Buffer()).add(Buffer());
+            return Arguments()
+                .add(rows(means->first, 3))
+                .add(rows(means->second, 3))
+                .add(rows(means->weight, 1));
+        };
+    }
     return DisplayPipeline(device, source, settings).run();
 }
 
@@ -39,7 +53,6 @@ std::vector<float> resolve_display(Device& device, const BinImage& image, const 
         .bins_x = image.bins_x,
         .bins_y = image.bins_y,
         .encoded = image.encoded,
-        .noisy = false,
         .unit = 1.0f,
         .rows_of_pixels = false,
         .row_bytes = image.columns * 4 * sizeof(float),

@@ -96,9 +96,11 @@ kernel void map_noisy_film(global const DisplaySlab* slab, global const long* su
 }
 
 /* What noise_display needs to know of every pixel of `rows` rows of the film's buffers. A pixel's bins and
- * those around it tell noise from structure: what is structure is alike in neighbouring bins. */
+ * those around it tell noise from structure: what is structure is alike in neighbouring bins, and in both
+ * halves of the samples. first, second, weights: HalfMeans (host/scene/film.h); 0 where there are none. */
 kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
-                        global float* means, uint rows) {
+                        global float* means, uint rows, global const float* first, global const float* second,
+                        global const float* weights) {
     const uint pixel = (uint)get_global_id(0), x = pixel % slab->width, y = pixel / slab->width;
     if (y >= rows) return;
     const uint bins_x = slab->bins[0], bins_y = slab->bins[1], bins = bins_x * bins_y;
@@ -122,11 +124,22 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
             above[u + 1] = left = value;
         }
     }
+    const float rays = convert_float(max(samples[pixel], bins)) / convert_float(bins);
+    float halves = 0.0f;
+    for (int v = -1; weights && v <= 1; ++v)
+        for (int u = -1; u <= 1; ++u) {
+            const uint row = display_reflect((int)(slab->source_row + y) + v, slab->height);
+            const uint at = min(row - min(slab->source_row, row), rows - 1u) * slab->width +
+                            display_reflect((int)x + u, slab->width);
+            halves += noise_of_halves(vload3(at, first) * slab->exposure, vload3(at, second) * slab->exposure,
+                                      weights[at], convert_float(bins)) *
+                      (1.0f / 9.0f);
+        }
     global float* to = means + (size_t)pixel * NOISE_RECORD;
     mean *= 1.0f / convert_float(bins);
     vstore4(mean, 0, to);
     vstore4(display_of_bin(slab, mean), 1, to);
-    to[8] = noise_share(&noise) * math_sqrt(convert_float(bins) / convert_float(max(samples[pixel], bins)));
+    to[8] = noise_share(&noise, rays, halves);
 }
 
 /* image: [row][column][R, G, B, alpha], colour associated; of encoded ones not, as in their files. */

@@ -35,12 +35,23 @@ TRIAD_FUNCTION void noise_add_pair(NoiseSums* s, float a, float b) {
     ++s->pairs;
 }
 
-/* How much of the bins' variance is noise: neighbours differ by twice the variance of that, on average. */
-TRIAD_FUNCTION float noise_share(const NoiseSums* s) {
+/* Variance of one bin of a pixel of `bins`, from that of the pixel's mean, which its halves tell. weight: of
+ * HalfMeans (host/scene/film.h). The samples of a pixel even each other out, so that it is rather too low. */
+TRIAD_FUNCTION float noise_of_halves(float3 first, float3 second, float weight, float bins) {
+    const float difference = noise_value((float4)(first, 1.0f)) - noise_value((float4)(second, 1.0f));
+    return bins * math_square(weight * difference);
+}
+
+/* How much of the variance of bins of `rays` rays each is noise. Neighbours differ by twice the variance of
+ * that, on average; but fine structure is not alike in neighbours either. What there is more than rays can
+ * bring is structure: values from 0 to 1 have at most the variance mean (1 - mean) (Bhatia and Davis 2000),
+ * and means of n of them the nth part. Rays much brighter than the bend bring more, which halves show. */
+TRIAD_FUNCTION float noise_share(const NoiseSums* s, float rays, float halves) {
     const float n = convert_float(s->count), mean = s->values / n;
     const float variance = (s->squares / n - mean * mean) * (n / (n - 1.0f));
-    const float noise = 0.5f * s->differences / convert_float(s->pairs);
-    return variance > 1e-9f ? math_saturate(noise / variance) : 0.0f;
+    const float rough = 0.5f * s->differences / convert_float(s->pairs);
+    const float possible = math_max(mean * (1.0f - mean) / rays, halves);
+    return variance > 1e-9f ? math_saturate(rough / variance) * math_saturate(possible / variance) : 0.0f;
 }
 
 /* Display-linear light of a bin. `pixel`: its pixel's record. */

@@ -15,7 +15,7 @@ namespace {
 
 constexpr unsigned width = 40, height = 24;
 
-/// 3 x 3 bins of `rays` each, whose means are those of `colour(x, y)`, in bins.
+/// 3 x 3 bins of `rays` each, whose means are those of `colour(x, y)`, in bins. The halves are alike.
 Film film_of(unsigned rays, const std::function<vec3(unsigned, unsigned)>& colour) {
     Film film;
     film.full_width = film.width = width, film.full_height = film.height = height;
@@ -30,7 +30,10 @@ Film film_of(unsigned rays, const std::function<vec3(unsigned, unsigned)>& colou
         for (unsigned x = 0; x < width * 3; ++x) {
             const vec3 c = colour(x, y);
             const std::size_t bin = (y / 3 * width + x / 3) * 9 + y % 3 * 3 + x % 3;
-            for (int i = 0; i < 3; ++i) film.sums[bin * 4 + i] = std::int64_t(double(c[i]) * unit);
+            for (int i = 0; i < 3; ++i) {
+                film.sums[bin * 4 + i] = std::int64_t(double(c[i]) * unit);
+                film.half_sums[bin / 9 * 3 + i] += film.sums[bin * 4 + i] / rays * ((rays + 1) / 2);
+            }
             film.sums[bin * 4 + 3] = std::int64_t(unit);
         }
     return film;
@@ -42,6 +45,17 @@ Film noise(unsigned rays) {
     std::uniform_real_distribution<float> any;
     return film_of(rays,
                    [&](unsigned, unsigned) { return vec3(any(random) < 0.25f ? 8.0f * any(random) : 0); });
+}
+
+/// Means of `rays` rays, half of which find nothing.
+Film mean_noise(unsigned rays) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> any;
+    return film_of(rays, [&](unsigned, unsigned) {
+        float sum = 0;
+        for (unsigned i = 0; i < rays; ++i) sum += any(random) < 0.5f ? 4.0f * any(random) : 0;
+        return vec3(sum / float(rays));
+    });
 }
 
 std::vector<float> shown(const Film& film, ToneOrder order) {
@@ -79,6 +93,40 @@ TEST(Noise, is_believed_less_the_more_rays_there_are) {
         before = left;
     }
     EXPECT_LT(before, 0.02);
+}
+
+TEST(Noise, of_many_rays_does_not_darken_either) {
+    for (const unsigned rays : {4u, 16u, 64u}) {
+        const Film film = mean_noise(rays);
+        const double pixel = mean_of(shown(film, ToneOrder::per_pixel));
+        const double bins = mean_of(shown(film, ToneOrder::per_bin));
+        EXPECT_GT(pixel - bins, 0.1 / rays) << "or there is nothing to mend";
+        EXPECT_NEAR(mean_of(shown(film, ToneOrder::noise_aware)), pixel, 0.2 * (pixel - bins)) << rays;
+    }
+}
+
+TEST(Noise, is_not_what_no_so_many_rays_can_bring) {
+    // The same bins, be they of four rays or of 64: as rough as noise, too rough for 64.
+    const auto bins = shown(noise(1), ToneOrder::per_bin), pixels = shown(noise(1), ToneOrder::per_pixel);
+    const double whole = mean_of(pixels) - mean_of(bins);
+    const auto believed = [&](unsigned rays) {
+        return (mean_of(shown(noise(rays), ToneOrder::noise_aware)) - mean_of(bins)) / whole;
+    };
+    EXPECT_GT(believed(1), 0.85);
+    EXPECT_LT(believed(16), 0.15);
+    EXPECT_LT(believed(64), 0.04);
+}
+
+TEST(Noise, of_bright_rays_is_believed_where_the_halves_differ) {
+    Film film = noise(16);
+    const double pixel = mean_of(shown(film, ToneOrder::per_pixel)),
+                 bins = mean_of(shown(film, ToneOrder::per_bin)),
+                 alike = mean_of(shown(film, ToneOrder::noise_aware));
+    for (std::size_t i = 0; i < film.half_sums.size(); ++i)
+        film.half_sums[i] += film.half_sums[i] / 2 * (i / 3 % 2 ? 1 : -1);
+    const double apart = mean_of(shown(film, ToneOrder::noise_aware));
+    EXPECT_LT(alike - bins, 0.15 * (pixel - bins));
+    EXPECT_GT(apart - bins, 0.75 * (pixel - bins));
 }
 
 TEST(Noise, is_not_seen_in_the_edges_of_lamps) {
