@@ -26,8 +26,10 @@ Film random_film() {
     for (std::size_t i = 0; i < film.sums.size(); ++i)
         film.sums[i] =
             i % 4 == 3 ? std::int64_t(1) << 30 : std::int64_t(random() % 4 ? random() >> 3 : random());
-    film.samples.assign(film.pixels(), 9);
-    film.ranges = {{0, 9}};
+    film.samples.assign(film.pixels(), 18);
+    film.ranges = {{0, 18}};
+    film.half_sums.resize(film.pixels() * 3);
+    for (std::int64_t& sum : film.half_sums) sum = std::int64_t(random()) * 9 / 2;
     return film;
 }
 
@@ -77,6 +79,9 @@ int main(int argc, char** argv) try {
         box.tone_map = map;
         print(name, box);
     }
+    box.tone_map = ToneMap::khronos, box.order = ToneOrder::noise_aware;
+    print("khronos by the share of noise, box 3+3", box);
+    box.order = ToneOrder::per_bin;
     const Panel rgb = *builtin_panel("rgb"), pentile = *builtin_panel("pentile");
     DisplaySettings settings = box;
     settings.tone_map = ToneMap::none;
