@@ -31,7 +31,6 @@ Metadata metadata_of(const Film& film) {
     Metadata metadata = {{"triad:version", TRIAD_VERSION},
                          {"triad:spp", spp_json(numbers).dump()},
                          {"triad:samples", std::to_string(numbers.total)},
-                         {"triad:relmse", number(estimated_relmse(film))},
                          {"triad:scene", film.scene},
                          {"triad:settings", film.settings},
                          {"triad:settings_text", film.settings_text},
@@ -43,6 +42,8 @@ Metadata metadata_of(const Film& film) {
                          {"triad:cut_energy", number(double(film.counters[COUNTER_CUT_ENERGY]) / 65536)},
                          {"samplesPerPixel", std::to_string(std::llround(numbers.mean))},
                          {"Software", "triad " TRIAD_VERSION}};
+    const double relmse = estimated_relmse(film);
+    if (relmse >= 0) metadata["triad:relmse"] = number(relmse);  // both halves have samples
     if (numbers.least != numbers.most) {
         metadata["triad:spp_min"] = std::to_string(numbers.least);
         metadata["triad:spp_max"] = std::to_string(numbers.most);

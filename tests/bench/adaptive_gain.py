@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """True error of adaptive against even sampling from as many rays.
 
-    tests/bench/adaptive_gain.py NAME=RENDER-ARGUMENTS... [--triad PATH] [--size WxH] [--spp N] [--seeds K] [--reference N]
+    tests/bench/adaptive_gain.py NAME=RENDER-ARGUMENTS... [--triad PATH] [--size WxH] [--spp N] [--seeds K] [--reference N] [--panel P]
 
 Each NAME is rendered evenly and adaptively with K seeds. The samples of the adaptive renders are chosen so that they trace as many
 rays. Errors are relMSE against a reference of another seed, less the reference's own estimated error. References are kept in
---folder and used again. Prints a Markdown table; the gain is the ratio of errors at equal rays, median over seeds, with the least and
+--folder and used again. With --panel errors are E of S-CIELAB on that display, against references of 6 x 6 samples per pixel. Prints a Markdown table; the gain is the ratio of errors at equal rays, median over seeds, with the least and
 the greatest.
 """
 import argparse
@@ -31,15 +31,29 @@ def render(options, scene, out, *arguments):
 
 
 def measure(options, name, scene):
-    reference, even, adaptive = (options.folder / f for f in (f"{name}-{options.reference}.exr", "even.exr", "adaptive.exr"))
+    if options.panel:
+        return measure_perceived(options, name, scene)
+    reference = options.folder / f"{name}-{options.reference}.exr"
     kept = reference.with_suffix(".json")
     if not kept.exists():
         kept.write_text(json.dumps(render(options, scene, reference, "--spp", options.reference, "--seed", REFERENCE_SEED)))
     noise = json.loads(kept.read_text())["relmse"]
+    return compare(options, name, scene, lambda picture: triad(options, "compare", picture, reference)["relmse"] - noise)
 
-    def error(picture):
-        return triad(options, "compare", picture, reference)["relmse"] - noise
 
+def measure_perceived(options, name, scene):
+    reference = options.folder / f"{name}-{options.reference}-fine.exr"
+    if not reference.exists():
+        fine = "x".join(str(6 * int(n)) for n in options.size.split("x"))
+        triad(options, "render", *shlex.split(scene), "--size", fine, "--reconstruct", "pane:1", "--spp", options.reference, "--seed",
+              REFERENCE_SEED, "-o", reference)
+    perceived = ["--metric", "perceived", "--panel", options.panel, "--eye", "scielab"]
+    return compare(options, name, f"{scene} --panel {options.panel}",
+                   lambda picture: triad(options, "compare", reference, picture, *perceived)["perceived"][0]["error"])
+
+
+def compare(options, name, scene, error):
+    even, adaptive = options.folder / "even.exr", options.folder / "adaptive.exr"
     at = render(options, scene, adaptive, "--spp", options.spp, "--adaptive", "on")
     rays = render(options, scene, even, "--spp", options.spp)["rays"]
     spp = max(1, round(options.spp * rays / at["rays"]))
@@ -61,11 +75,12 @@ def main():
     parser.add_argument("--size", default="192x192")
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--seeds", type=int, default=5)
+    parser.add_argument("--panel", help="a display, instead of the relMSE")
     parser.add_argument("--reference", type=int, default=1024, help="samples per pixel of the references")
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("build/adaptive_gain"))
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    print(f"| scene | relMSE even, {options.spp} spp | adaptive | spp mean (least to most) | rays | gain at equal rays |\n"
+    print(f"| scene | {'E' if options.panel else 'relMSE'} even, {options.spp} spp | adaptive | spp mean (least to most) | rays | gain at equal rays |\n"
           "|---|---|---|---|---|---|", flush=True)
     for entry in options.scenes:
         measure(options, *entry.split("=", 1))

@@ -84,6 +84,26 @@ TEST(RayStart, centres_of_bins_are_the_pixels_of_a_larger_picture_bit_for_bit) {
     }
 }
 
+TEST(RayStart, two_of_four_rays_on_purple_make_a_pixel_half_purple) {
+    analytic::Builder b;
+    Material purple;
+    purple.unlit = true;
+    purple.base_colour = {0.5f, 0.0f, 0.75f, 1.0f};
+    b.add(shapes::quad({-9, -9, 0}, {9, 0, 0}, {0, 18, 0}), purple);  // the left half of what is seen
+    RenderSettings settings;
+    settings.width = settings.height = 1;
+    settings.bins_x = settings.bins_y = 2;
+    settings.ray_start = RayStart::centre;
+    settings.view = analytic::orthographic({0, 0, 0}, {0, 0, -1}, 1, 5);
+    validate(b.scene);
+    Renderer renderer(test_device(), b.scene, settings);
+    renderer.render({0, 4}, [](const Progress&) { return true; });
+    const auto mean = pixel_mean(renderer.film(), 0);
+    EXPECT_EQ(mean[0], 0.25);
+    EXPECT_EQ(mean[1], 0.0);
+    EXPECT_EQ(mean[2], 0.375);
+}
+
 RenderSettings filtered(const TapTable& table, unsigned bins_x) {
     RenderSettings settings = analytic::varied_settings();
     settings.bins_x = bins_x, settings.bins_y = 1;
