@@ -75,7 +75,9 @@ class Table:
                            for seed in (101, 102)]
         for name, arguments in METHODS.items():
             spp = self.samples_within_limit(name, arguments)
-            x, seconds, row = self.render(name, arguments, "--spp", str(spp), "--error", str(TARGET))
+            # the estimate does not see what a map's photons scattered by chance
+            until = [] if arguments[:4] == MAP else ["--error", str(TARGET)]
+            x, seconds, row = self.render(name, arguments, "--spp", str(spp), *until)
             self.add({"method": name, "minutes": seconds / 120, "spp": row["spp"], "noise": row["relmse"], "error": self.error(x),
                       "photon_s": row["photon_s"], "mean": x.mean((0, 1)).tolist()})
 
