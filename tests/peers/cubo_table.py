@@ -94,7 +94,8 @@ class Table:
                 return print("LuxCore does not run here")
             halves.append(numpy.load(f"{out}.npy").astype(float))
         x = sum(halves) / 2
-        noise = float(((halves[0] - halves[1]) ** 2 / 4 / (x * x + .01)).mean())
+        r = (self.references[0] + self.references[1]) / 2
+        noise = float(((halves[0] - halves[1]) ** 2 / 4 / (r * r + .01)).mean())
         return self.add({"method": "LuxCore", "minutes": self.limit / 120, "noise": noise, "error": self.error(x), "mean": x.mean((0, 1)).tolist()})
 
 
