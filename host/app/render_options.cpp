@@ -178,7 +178,7 @@ void declare(CLI::App& command, RenderOptions& o) {
 
     add_parsed(
         command, "--spectral", "auto|off|full|classic",
-        "auto (the default): a path has one wavelength from the first body on that disperses; off: RGB; "
+        "auto (the default): a path has three wavelengths from the first body on that disperses; off: RGB; "
         "full: four wavelengths per path; "
         "classic: one wavelength from the camera on",
         [&o](const std::string& v) { o.spectral = parse_spectral(v); })

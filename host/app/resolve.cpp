@@ -28,6 +28,7 @@ bool is_film(const std::string& path) {
 void resolve_film(ResolveOptions& o) {
     const Film film = load_film(o.source);
     o.style.reconstruction = o.reconstruct.make(uvec2(film.bins_x, film.bins_y));
+    check_format_for(o.style.reconstruction, o.outputs);
     const Reconstruction& method = o.style.reconstruction;
     if (has_filtered_rays(film) != (method.ray_start == RayStart::filter))
         throw Error(Exit::usage,

@@ -33,11 +33,12 @@ std::vector<float> resolve_display(Device& device, const Film& film, const Displ
                 const std::size_t row = film.width * each;
                 return to.upload(std::span(values).subspan(first * row, count * row));
             };
-            if (!means) return Arguments().add(Buffer()).add(Buffer()).add(Buffer());
+            if (!means) return Arguments().add(Buffer()).add(Buffer()).add(Buffer()).add(0u);
             return Arguments()
                 .add(rows(means->first, 3))
                 .add(rows(means->second, 3))
-                .add(rows(means->weight, 1));
+                .add(rows(means->weight, 1))
+                .add(1u);
         };
     }
     return DisplayPipeline(device, source, settings).run();

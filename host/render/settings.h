@@ -19,7 +19,8 @@ enum class RayStart {
 
 /// How light is split into wavelengths: docs/spectral.md.
 enum class Spectral {
-    automatic,  ///< RGB up to the first body that disperses, one wavelength from there on
+    automatic,  ///< RGB up to the first body that disperses, three wavelengths from there on, one after the
+                ///< other
     off,        ///< RGB: bodies refract by their index at the d line
     full,       ///< four wavelengths per path from the camera on; reflectances and lights upsampled from RGB
     classic     ///< one wavelength per path from the camera on, as it was first published

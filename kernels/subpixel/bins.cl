@@ -97,10 +97,11 @@ kernel void map_noisy_film(global const DisplaySlab* slab, global const long* su
 
 /* What noise_display needs to know of every pixel of `rows` rows of the film's buffers. A pixel's bins and
  * those around it tell noise from structure: what is structure is alike in neighbouring bins, and in both
- * halves of the samples. first, second, weights: HalfMeans (host/scene/film.h); 0 where there are none. */
+ * halves of the samples. first, second, weights: HalfMeans (host/scene/film.h), if
+ * halves_known: what a missing buffer looks like to a kernel is the driver's affair. */
 kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
                         global float* means, uint rows, global const float* first, global const float* second,
-                        global const float* weights) {
+                        global const float* weights, uint halves_known) {
     const uint pixel = (uint)get_global_id(0), x = pixel % slab->width, y = pixel / slab->width;
     if (y >= rows) return;
     const uint bins_x = slab->bins[0], bins_y = slab->bins[1], bins = bins_x * bins_y;
@@ -126,7 +127,7 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
     }
     const float rays = convert_float(max(samples[pixel], bins)) / convert_float(bins);
     float halves = 0.0f;
-    for (int v = -1; weights && v <= 1; ++v)
+    for (int v = -1; halves_known && v <= 1; ++v)
         for (int u = -1; u <= 1; ++u) {
             const uint row = display_reflect((int)(slab->source_row + y) + v, slab->height);
             const uint at = min(row - min(slab->source_row, row), rows - 1u) * slab->width +

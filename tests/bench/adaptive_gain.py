@@ -5,8 +5,8 @@
 
 Each NAME is rendered evenly and adaptively with K seeds. The samples of the adaptive renders are chosen so that they trace as many
 rays. Errors are relMSE against a reference of another seed, less the reference's own estimated error. References are kept in
---folder and used again. With --panel errors are E of S-CIELAB on that display, against references of 6 x 6 samples per pixel. Prints a Markdown table; the gain is the ratio of errors at equal rays, median over seeds, with the least and
-the greatest.
+--folder and used again. With --panel errors are E of S-CIELAB on that display, against references of 6 x 6 samples per pixel.
+Prints a Markdown table; the gain is the ratio of errors at equal rays, median over seeds, with the least and the greatest.
 """
 import argparse
 import json

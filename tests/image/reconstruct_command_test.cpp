@@ -77,6 +77,7 @@ TEST(ReconstructCommand, a_film_for_a_panel_is_the_picture_that_was_rendered_for
     EXPECT_EQ(plain.metadata.count("triad:values"), 0u);
     EXPECT_GT(*std::max_element(plain.find("R")->values.begin(), plain.find("R")->values.end()), 1.0f)
         << "scene-linear";
+    done("resolve " + film + " --panel qd-oled -o " + (folder / "x.hdr").string(), 1);
     const Outcome outcome =
         done("resolve " + film + " --reconstruct ssaa:2 -o " + (folder / "x.png").string(), 1);
     EXPECT_NE(outcome.output.find("2x2"), std::string::npos) << outcome.output;
