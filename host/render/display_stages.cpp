@@ -33,15 +33,13 @@ void DisplayPipeline::map_rows(const Rows& rows) {
     const std::size_t items = bins_.stride / lanes_ * plan_.columns() * bin_rows;
     const Arguments map = Arguments(source).add(planes_).add(std::uint32_t(items));
     if (source_.halves) {
-        constexpr std::size_t record = 9;  // NOISE_RECORD of subpixel/noise.h
+        constexpr std::size_t record = 13;  // NOISE_RECORD of subpixel/noise.h
         const std::size_t pixels = from.count() * source_.width;
         reserve(means_, pixels * record * sizeof(float));
+        const Arguments means = Arguments(source).add(means_).add(std::uint32_t(from.count()));
+        device_.run(program.kernel("average_film"), means, pixels);
         device_.run(program.kernel("weigh_noise"),
-                    Arguments(source)
-                        .add(means_)
-                        .add(std::uint32_t(from.count()))
-                        .add(source_.halves(device_, from.begin, from.count())),
-                    pixels);
+                    Arguments(means).add(source_.halves(device_, from.begin, from.count())), pixels);
         device_.run(program.kernel("map_noisy_film"), Arguments(map).add(means_), items);
     } else {
         device_.run(program.kernel(source_.kernel), map, items);

@@ -95,10 +95,22 @@ kernel void map_noisy_film(global const DisplaySlab* slab, global const long* su
     }
 }
 
-/* What noise_display needs to know of every pixel of `rows` rows of the film's buffers. A pixel's bins and
- * those around it tell noise from structure: what is structure is alike in neighbouring bins, and in both
- * halves of the samples. first, second, weights: HalfMeans (host/scene/film.h), if
- * halves_known: what a missing buffer looks like to a kernel is the driver's affair. */
+/* The mean of every pixel of `rows` rows of the film's buffers, into its record. */
+kernel void average_film(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
+                         global float* means, uint rows) {
+    const uint pixel = (uint)get_global_id(0), bins = slab->bins[0] * slab->bins[1];
+    if (pixel >= rows * slab->width) return;
+    float4 mean = (float4)(0.0f);
+    for (uint bin = 0u; bin < bins; ++bin) mean += film_bin(slab, sums, samples, pixel, bin);
+    vstore4(mean * (1.0f / convert_float(bins)), 0, means + (size_t)pixel * NOISE_RECORD);
+}
+
+/* What else noise_display needs to know of them. A pixel's bins and those around it tell noise from
+ * structure: what is structure is alike in neighbouring bins, and in both halves of the samples. The tangent
+ * touches where a filter for noise sees the pixel's mean among those around it (Lee 1980, "Digital Image
+ * Enhancement and Noise Filtering by Use of Local Statistics"). first, second, weights: HalfMeans
+ * (host/scene/film.h), if halves_known: what a missing buffer looks like to a kernel is the driver's affair.
+ */
 kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
                         global float* means, uint rows, global const float* first, global const float* second,
                         global const float* weights, uint halves_known) {
@@ -107,7 +119,6 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
     const uint bins_x = slab->bins[0], bins_y = slab->bins[1], bins = bins_x * bins_y;
     float above[NOISE_MOST_BINS + 2];
     NoiseSums noise = {0.0f, 0.0f, 0.0f, 0u, 0u};
-    float4 mean = (float4)(0.0f);
     for (int v = -1; v <= (int)bins_y; ++v) {
         float left = 0.0f;
         for (int u = -1; u <= (int)bins_x; ++u) {
@@ -116,8 +127,6 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
             const uint at = min(row / bins_y - min(slab->source_row, row / bins_y), rows - 1u);
             const float4 bin = film_bin(slab, sums, samples, (size_t)at * slab->width + column / bins_x,
                                         row % bins_y * bins_x + column % bins_x);
-            const int inside = u >= 0 && v >= 0 && u < (int)bins_x && v < (int)bins_y;
-            if (inside) mean += bin;
             const float value = noise_value(bin);
             noise_add(&noise, value);
             if (u >= 0) noise_add_pair(&noise, value, left);
@@ -126,21 +135,34 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
         }
     }
     const float rays = convert_float(max(samples[pixel], bins)) / convert_float(bins);
+    NoiseSums pixels = {0.0f, 0.0f, 0.0f, 0u, 0u};
+    float4 around = (float4)(0.0f);
     float halves = 0.0f;
-    for (int v = -1; halves_known && v <= 1; ++v)
+    for (int v = -1; v <= 1; ++v)
         for (int u = -1; u <= 1; ++u) {
             const uint row = display_reflect((int)(slab->source_row + y) + v, slab->height);
             const uint at = min(row - min(slab->source_row, row), rows - 1u) * slab->width +
                             display_reflect((int)x + u, slab->width);
-            halves += noise_of_halves(vload3(at, first) * slab->exposure, vload3(at, second) * slab->exposure,
-                                      weights[at], convert_float(bins)) *
-                      (1.0f / 9.0f);
+            const float4 mean = vload4(0, means + (size_t)at * NOISE_RECORD);
+            noise_add(&pixels, noise_value(mean));
+            around = fma((float4)(1.0f / 9.0f), mean, around);
+            if (halves_known)
+                halves +=
+                    noise_of_halves(vload3(at, first) * slab->exposure, vload3(at, second) * slab->exposure,
+                                    weights[at], convert_float(bins)) *
+                    (1.0f / 9.0f);
         }
     global float* to = means + (size_t)pixel * NOISE_RECORD;
-    mean *= 1.0f / convert_float(bins);
-    vstore4(mean, 0, to);
-    vstore4(display_of_bin(slab, mean), 1, to);
-    to[8] = noise_share(&noise, rays, halves);
+    float variance;
+    const float share = noise_share(&noise, rays, halves, &variance);
+    /* means of bins vary by noise as well, but by the number of bins less */
+    const float differ = noise_variance(&pixels),
+                smooth =
+                    differ > 1e-9f ? math_saturate(share * variance / (convert_float(bins) * differ)) : 0.0f;
+    const float4 mean = vload4(0, to), point = fma((float4)(smooth), around - mean, mean);
+    vstore4(point, 1, to);
+    vstore4(display_of_bin(slab, point), 2, to);
+    to[12] = share;
 }
 
 /* image: [row][column][R, G, B, alpha], colour associated; of encoded ones not, as in their files. */

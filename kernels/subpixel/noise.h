@@ -1,15 +1,15 @@
 /* Tone maps of bins that hold few rays. A tone map is bent, so that the mean of tone-mapped noise is not the
  * tone-mapped mean: alone, a bin of one ray is too dark. Where the bins of a pixel differ by noise, they are
- * therefore mapped along the tangent at the pixel's mean, which keeps their mean; where they differ by
- * structure, one by one, which keeps bright edges tame. docs/subpixel.md has the measurements. */
+ * therefore evened out and mapped along a tangent, which keeps their mean; where they differ by structure,
+ * one by one, which keeps bright edges tame. docs/subpixel.md has the measurements. */
 #ifndef TRIAD_SUBPIXEL_NOISE_H
 #define TRIAD_SUBPIXEL_NOISE_H
 
 #include "subpixel/display.h"
 
-/* Floats of a pixel: mean radiance and alpha of its bins; what a display shows of that; the share of noise.
- */
-#define NOISE_RECORD 9
+/* Floats of a pixel: mean radiance and alpha of its bins; where the tangent touches; what a display shows of
+ * that; the share of noise. */
+#define NOISE_RECORD 13
 #define NOISE_MOST_BINS 16 /* along an axis of a pixel */
 /* The tangent is a chord of this share of the way to the bin: every tone map has one. */
 #define NOISE_CHORD 0.03125f
@@ -35,6 +35,11 @@ TRIAD_FUNCTION void noise_add_pair(NoiseSums* s, float a, float b) {
     ++s->pairs;
 }
 
+TRIAD_FUNCTION float noise_variance(const NoiseSums* s) {
+    const float n = convert_float(s->count), mean = s->values / n;
+    return (s->squares / n - mean * mean) * (n / (n - 1.0f));
+}
+
 /* Variance of one bin of a pixel of `bins`, from that of the pixel's mean, which its halves tell. weight: of
  * HalfMeans (host/scene/film.h). The samples of a pixel even each other out, so that it is rather too low. */
 TRIAD_FUNCTION float noise_of_halves(float3 first, float3 second, float weight, float bins) {
@@ -42,25 +47,29 @@ TRIAD_FUNCTION float noise_of_halves(float3 first, float3 second, float weight, 
     return bins * math_square(weight * difference);
 }
 
-/* How much of the variance of bins of `rays` rays each is noise. Neighbours differ by twice the variance of
- * that, on average; but fine structure is not alike in neighbours either. What there is more than rays can
- * bring is structure: values from 0 to 1 have at most the variance mean (1 - mean) (Bhatia and Davis 2000),
- * and means of n of them the nth part. Rays much brighter than the bend bring more, which halves show. */
-TRIAD_FUNCTION float noise_share(const NoiseSums* s, float rays, float halves) {
-    const float n = convert_float(s->count), mean = s->values / n;
-    const float variance = (s->squares / n - mean * mean) * (n / (n - 1.0f));
+/* How much of the variance of bins of `rays` rays each is noise; and that variance. Neighbours differ by
+ * twice the variance of that, on average; but fine structure is not alike in neighbours either. What there is
+ * more than rays can bring is structure: values from 0 to 1 have at most the variance mean (1 - mean) (Bhatia
+ * and Davis 2000), and means of n of them the nth part. Rays much brighter than the bend bring more, which
+ * halves show. */
+TRIAD_FUNCTION float noise_share(const NoiseSums* s, float rays, float halves, float* variance) {
+    const float mean = s->values / convert_float(s->count);
+    *variance = noise_variance(s);
     const float rough = 0.5f * s->differences / convert_float(s->pairs);
     const float possible = math_max(mean * (1.0f - mean) / rays, halves);
-    return variance > 1e-9f ? math_saturate(rough / variance) * math_saturate(possible / variance) : 0.0f;
+    return *variance > 1e-9f ? math_saturate(rough / *variance) * math_saturate(possible / *variance) : 0.0f;
 }
 
 /* Display-linear light of a bin. `pixel`: its pixel's record. */
 TRIAD_FUNCTION float4 noise_display(global const DisplaySlab* slab, float4 bin, global const float* pixel) {
     const float4 alone = display_of_bin(slab, bin);
-    const float share = pixel[8];
+    const float share = pixel[12];
     if (share == 0.0f) return alone;
-    const float4 mean = vload4(0, pixel), light = vload4(1, pixel);
-    const float4 ahead = display_of_bin(slab, fma((float4)(NOISE_CHORD), bin - mean, mean));
+    const float4 mean = vload4(0, pixel), point = vload4(1, pixel), light = vload4(2, pixel);
+    /* Of what differs by noise alone nothing is worth keeping; of a mixture the share of structure. That is
+     * told from noise by few bins, and to lose it is worse: hence the square. */
+    const float4 even = fma((float4)(share * share), mean - bin, bin);
+    const float4 ahead = display_of_bin(slab, fma((float4)(NOISE_CHORD), even - point, point));
     const float4 along = fma((float4)(1.0f / NOISE_CHORD), ahead - light, light);
     return fma((float4)(share), along - alone, alone);
 }

@@ -145,8 +145,9 @@ TEST(LightSpectra, a_laser_through_a_prism_is_one_spot_of_its_colour) {
         EXPECT_NEAR(luminance(spot.flux), 2 * slit * length * share, 0.01 * 2 * slit * length * share)
             << nanometres;
         EXPECT_NEAR(luminance(spot.flux), total(flux), 1e-9) << "light of " << nanometres << " nm elsewhere";
-        if (nanometres == 532)
+        if (nanometres == 532) {
             EXPECT_TRUE(spot.flux.g > 0 && spot.flux.r < 0) << "outside Rec.709, and signed";
+        }
     }
 }
 
@@ -173,8 +174,12 @@ TEST(LightSpectra, white_light_is_the_whole_band) {
         ASSERT_LT(violet, red);
         for (unsigned i = 0; i < size; ++i) {
             const double x = -half + (i + 0.5) * bin;
-            if (x > violet && x < red) EXPECT_GT(luminance(flux[i]), 0) << x;
-            if (x < ends[0] || x > ends[1]) EXPECT_EQ(flux[i], dvec3(0.0)) << x;
+            if (x > violet && x < red) {
+                EXPECT_GT(luminance(flux[i]), 0) << x;
+            }
+            if (x < ends[0] || x > ends[1]) {
+                EXPECT_EQ(flux[i], dvec3(0.0)) << x;
+            }
         }
     }
 }

@@ -98,7 +98,9 @@ TEST(PerceivedSets, a_set_is_told_by_its_own_samples_alone) {
         const SetErrors a = errors({1, 2}), b = errors({1, 3});
         for (std::size_t i = 0; i < a.size(); i += 2) {
             EXPECT_EQ(a[i], b[i]) << i;
-            if (a[i + 1] > 0) EXPECT_NE(a[i + 1], b[i + 1]) << i;
+            if (a[i + 1] > 0) {
+                EXPECT_NE(a[i + 1], b[i + 1]) << i;
+            }
         }
     }
 }

@@ -41,7 +41,9 @@ TEST(Suite, FilesReadWithoutWarningsAndHaveOneCamera) {
         EXPECT_EQ(validate(loaded), 0u) << scene.name;
         EXPECT_EQ(loaded.cameras.size(), 1u) << scene.name;
         EXPECT_LT(fs::file_size(options.scene_path), 150'000u) << scene.name;
-        if (!options.env_path.empty()) EXPECT_NO_THROW(load_environment(options.env_path)) << scene.name;
+        if (!options.env_path.empty()) {
+            EXPECT_NO_THROW(load_environment(options.env_path)) << scene.name;
+        }
     }
 }
 
