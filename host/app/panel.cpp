@@ -33,11 +33,11 @@ TapTable taps_of(const PanelOptions& o, const Panel& panel, double ppd) {
         return displaced_box_taps(panel, bins.x, bins.y);
     }
     if (o.filter == "platt") return platt_taps(panel, ppd, true);
-    return design_taps(panel, ppd,
-                       {.bins_x = bins.x,
-                        .bins_y = bins.y,
-                        .cross_colour = o.filter == "cross-colour",
-                        .separable = o.filter == "separable"});
+    return kept_taps(panel, ppd,
+                     {.bins_x = bins.x,
+                      .bins_y = bins.y,
+                      .cross_colour = o.filter == "cross-colour",
+                      .separable = o.filter == "separable"});
 }
 
 /// The picture, or the part of it that --crop names.

@@ -20,6 +20,9 @@ struct TapDesign {
 /// Error(usage) for ppd outside of [5, 1000] or bins that are too many.
 TapTable design_taps(const Panel& panel, double ppd, const TapDesign& design = {});
 
+/// The same, from the user's cache where they were designed before (cache_folder()).
+TapTable kept_taps(const Panel& panel, double ppd, const TapDesign& design = {});
+
 /// Throws Error(usage) for ppd outside of [5, 1000] or bins outside of 1 to 16.
 void check_design(double ppd, unsigned bins_x, unsigned bins_y);
 

@@ -151,7 +151,7 @@ class Maker {
     uvec2 bins() const { return {r_.bins_x, r_.bins_y}; }
 
     TapTable designed(const TapDesign& design) const {
-        return design_taps(r_.panel->panel, r_.panel->ppd, design);
+        return kept_taps(r_.panel->panel, r_.panel->ppd, design);
     }
 
     void make(const std::string& name) {
