@@ -126,6 +126,9 @@ class Bench {
 
     /// The pictures of a folder, many samples a pixel.
     void sample(const fs::path& folder) {
+        std::error_code absent;
+        if (!fs::is_directory(folder, absent))
+            throw Error(Exit::scene, "--synthetic " + folder.string() + ": there is no such folder.");
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(folder))
             if (entry.path().extension() == ".exr") files.push_back(entry.path());

@@ -2,7 +2,8 @@
  * does. Bits are those of trace_paths. */
 #define TRIAD_RECORD 1
 
-#include "shading/path.cl"
+#include "shading/path_trace.h"
+#include "shading/sample.h"
 
 /* One work-item is one sample: [first_sample, first_sample + sample_count) of the pixel (x, y) of the crop.
  * paths: PATH_VERTICES for every sample. */

@@ -124,6 +124,15 @@ TEST(ReconstructCommand, any_larger_picture_is_filtered_for_a_panel) {
         std::string::npos);
 }
 
+TEST(ReconstructCommand, the_bench_says_where_it_finds_no_pictures) {
+    const TemporaryFolder folder;
+    const std::string empty = (folder / "").string(), absent = (folder / "absent").string();
+    EXPECT_NE(
+        done("bench subpixel --synthetic " + absent, 2).output.find(absent + ": there is no such folder"),
+        std::string::npos);
+    EXPECT_NE(done("bench subpixel --synthetic " + empty, 2).output.find("no .exr file"), std::string::npos);
+}
+
 TEST(ReconstructCommand, pictures_for_a_panel_are_refused_where_they_would_be_taken_for_colours) {
     const TemporaryFolder folder;
     const auto path = [&](const char* name) { return (folder / name).string(); };
