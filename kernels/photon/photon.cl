@@ -1,7 +1,7 @@
 /* Photons: light that reaches a surface by mirrors and glass alone (L S+ D, Heckbert's notation). What the
  * camera sees directly of it is splatted to the film (light tracing, Dutre 1993); where paths meet it later,
  * they gather it from a map (map.cl, shading/photon_map.h). Paths themselves leave this light out
- * (shading/path_trace.h). For the classic map, every surface scatters photons. One work-item is one photon. */
+ * (shading/path.cl). For the classic map, every surface scatters photons. One work-item is one photon. */
 #include "common/language.h"
 
 #include "common/random.h"

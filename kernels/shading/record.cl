@@ -2,8 +2,7 @@
  * does. Bits are those of trace_paths. */
 #define TRIAD_RECORD 1
 
-#include "shading/path_trace.h"
-#include "shading/sample.h"
+#include "shading/path.cl"
 
 /* One work-item is one sample: [first_sample, first_sample + sample_count) of the pixel (x, y) of the crop.
  * paths: PATH_VERTICES for every sample. */

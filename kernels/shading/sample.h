@@ -17,11 +17,6 @@ TRIAD_FUNCTION int sample_pixel(const uint crop[4], uint i, uint* x, uint* y) {
     return *x < crop[2] && *y < crop[3];
 }
 
-/* What a pixel (x, y) of the crop is called by its samples: its index in the full picture. */
-TRIAD_FUNCTION uint film_pixel(const Frame* frame, uint x, uint y) {
-    return (frame->crop[1] + y) * (uint)frame->camera.pixels[0] + frame->crop[0] + x;
-}
-
 /* Sample s of a pixel: which bin and half it falls into, and its samplers. Within a pixel the bins take
  * turns, each pixel from another one; the halves take turns after every bin had one. */
 typedef struct SampleName {
