@@ -18,7 +18,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(TapTable, bins_x, bins_y, cell_x, cell_y, out
 
 namespace {
 
-/// To be counted on when the designer's answers change: what is kept is out of date then, which
+/// To be raised when the designer answers otherwise: what is kept is out of date then, which
 /// KeptTaps.are_what_the_designer_says finds out.
 constexpr const char* schema = "triad.taps/1";
 
