@@ -46,13 +46,17 @@ std::size_t round_up(std::size_t n, std::size_t step) { return (n + step - 1) / 
 
 }  // namespace
 
+DisplayShape display_shape(const DeviceInfo& device) {
+    return device.type == "cpu" ? DisplayShape{16, 1} : DisplayShape{1, 4};
+}
+
 DisplayPipeline::DisplayPipeline(Device& device, const BinSource& source, const DisplaySettings& settings)
     : device_(device),
       source_(source),
       settings_(settings),
       plan_(settings.taps ? *settings.taps : box_taps(source.bins_x, source.bins_y),
             settings.alpha && !settings.background),
-      lanes_(device.info().type == "cpu" ? 16 : 1) {
+      shape_(settings.shape.value_or(display_shape(device.info()))) {
     if (plan_.bins_x() != source.bins_x || plan_.bins_y() != source.bins_y)
         throw Error(Exit::usage, "The taps are for " + std::to_string(plan_.bins_x()) + "x" +
                                      std::to_string(plan_.bins_y()) + " bins per pixel, the picture has " +
@@ -68,8 +72,8 @@ DisplayPipeline::DisplayPipeline(Device& device, const BinSource& source, const 
     const std::size_t allowed = device.info().max_allocation;
     if (allowed > 0) most_ = allowed;
     cells_ = (source.width + plan_.cell_x() - 1) / plan_.cell_x();
-    const std::size_t runs = round_up(cells_, lanes_);
-    bins_.stride = round_up(plan_.left() + runs + plan_.right(), lanes_);
+    const std::size_t runs = round_up(cells_, shape_.lanes);
+    bins_.stride = round_up(plan_.left() + runs + plan_.right(), shape_.lanes);
     pad_ = refine_steps_ > 0 ? settings.refine->radius : 0;
     pad_cells_ = (pad_ + plan_.cell_x() - 1) / plan_.cell_x();
     drives_.stride = runs + 2 * pad_cells_;
@@ -92,10 +96,17 @@ std::vector<float> DisplayPipeline::run() {
     return display;
 }
 
-unsigned DisplayPipeline::runs() const { return unsigned(round_up(cells_, lanes_) / lanes_); }
+unsigned DisplayPipeline::runs() const { return unsigned(round_up(cells_, shape_.lanes) / shape_.lanes); }
 
 Options DisplayPipeline::options(unsigned taps) const {
-    return {{"DISPLAY_LANES", std::to_string(lanes_)}, {"DISPLAY_TAPS", std::to_string(taps)}};
+    return {{"DISPLAY_LANES", std::to_string(shape_.lanes)},
+            {"DISPLAY_ROWS", std::to_string(shape_.rows)},
+            {"DISPLAY_TAPS", std::to_string(taps)}};
+}
+
+/// Groups of rows of one phase, of which a work-item does one.
+std::uint32_t DisplayPipeline::row_groups(std::size_t rows, const PlaneSums& sums) const {
+    return std::uint32_t(round_up(rows, sums.phases * shape_.rows) / shape_.rows);
 }
 
 /// Of a slab that has `margins` rows more: as many as fit into `bytes`, or more where most of these would

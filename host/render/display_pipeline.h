@@ -42,7 +42,7 @@ class DisplayPipeline {
     const BinSource& source_;
     const DisplaySettings& settings_;
     const TapPlan plan_;
-    const std::size_t lanes_;
+    const DisplayShape shape_;
     std::size_t most_ = std::size_t(2) << 30;
     unsigned refine_steps_ = 0;
     std::size_t cells_ = 0, pad_ = 0, pad_cells_ = 0;
@@ -50,6 +50,7 @@ class DisplayPipeline {
     Buffer slab_, planes_, means_, sums_;  ///< of the bins; kept while they are large enough
 
     unsigned runs() const;
+    std::uint32_t row_groups(std::size_t rows, const PlaneSums& sums) const;
     Options options(unsigned taps) const;
     std::size_t rows_that_fit(std::size_t bytes, std::size_t row_bytes, std::size_t margins) const;
     void reserve(Buffer& buffer, std::size_t bytes);

@@ -28,9 +28,10 @@ void DisplayPipeline::map_rows(const Rows& rows) {
     reserve(planes_, plan_.channels() * plan_.columns() * bins_.plane * sizeof(float));
     const Rows from = source_rows(rows);
     write_slab(slab_of(rows, from.begin));
-    const Program program = device_.build("subpixel/bins.cl", {{"DISPLAY_LANES", std::to_string(lanes_)}});
+    const Program program =
+        device_.build("subpixel/bins.cl", {{"DISPLAY_LANES", std::to_string(shape_.lanes)}});
     const Arguments source = Arguments().add(slab_).add(source_.upload(device_, from.begin, from.count()));
-    const std::size_t items = bins_.stride / lanes_ * plan_.columns() * bin_rows;
+    const std::size_t items = bins_.stride / shape_.lanes * plan_.columns() * bin_rows;
     const Arguments map = Arguments(source).add(planes_).add(std::uint32_t(items));
     if (source_.halves) {
         constexpr std::size_t record = 13;  // NOISE_RECORD of subpixel/noise.h
@@ -53,6 +54,7 @@ void DisplayPipeline::tap_rows(const Rows& rows, const Rows& made, const Buffer&
     const auto sum = [&](const PlaneSums& s, const Buffer& in, const Buffer& out, std::size_t runs,
                          std::size_t in_first, std::size_t in_step, std::size_t out_first,
                          const PlaneShape& shape) {
+        const std::uint32_t groups = row_groups(rows.count(), s);
         device_.run(device_.build("subpixel/drives.cl", options(s.taps)).kernel("sum_taps"),
                     Arguments()
                         .add(in)
@@ -61,6 +63,7 @@ void DisplayPipeline::tap_rows(const Rows& rows, const Rows& made, const Buffer&
                         .add(device_.upload(s.weights))
                         .add(std::uint32_t(runs))
                         .add(std::uint32_t(rows.count()))
+                        .add(groups)
                         .add(std::uint32_t(s.planes))
                         .add(std::uint32_t(s.phases))
                         .add(std::uint32_t(rows.begin % s.phases))
@@ -69,13 +72,13 @@ void DisplayPipeline::tap_rows(const Rows& rows, const Rows& made, const Buffer&
                         .add(std::uint32_t(out_first))
                         .add(std::uint32_t(shape.stride))
                         .add(std::uint32_t(shape.plane)),
-                    runs * rows.count() * s.planes);
+                    runs * groups * s.planes);
     };
     if (plan_.separable()) {
         const PlaneShape between{bins_.stride, bins_.stride * rows.count()};
         const PlaneSums down_sums = plan_.down_sums(bins_);
         reserve(sums_, down_sums.planes * between.plane * sizeof(float));
-        sum(down_sums, planes_, sums_, bins_.stride / lanes_, own_row, source_.bins_y * bins_.stride, 0,
+        sum(down_sums, planes_, sums_, bins_.stride / shape_.lanes, own_row, source_.bins_y * bins_.stride, 0,
             between);
         sum(plan_.across_sums(between), sums_, drives, runs(), plan_.left(), between.stride,
             first_of(rows.begin, made), drives_);
@@ -94,26 +97,29 @@ Buffer DisplayPipeline::refine(const Buffer& asked, const Rows& made, std::size_
     const PlaneSums sums = refine_sums(*settings_.refine, drives_);
     const Program program = device_.build("subpixel/drives.cl", options(sums.taps));
     const Buffer offsets = device_.upload(sums.offsets), weights = device_.upload(sums.weights);
-    const std::size_t items = std::size_t(runs()) * made.count() * sums.planes;
-    const auto shape = [&](Arguments arguments, bool phases) {
-        arguments.add(runs()).add(std::uint32_t(made.count())).add(std::uint32_t(sums.planes));
-        if (phases) arguments.add(std::uint32_t(sums.phases)).add(std::uint32_t(made.begin % sums.phases));
-        return arguments.add(first_of(made.begin, made))
+    const std::uint32_t groups = row_groups(made.count(), sums);
+    const std::size_t items = std::size_t(runs()) * groups * sums.planes;
+    const auto shape = [&](Arguments arguments) {
+        return arguments.add(runs())
+            .add(std::uint32_t(made.count()))
+            .add(groups)
+            .add(std::uint32_t(sums.planes))
+            .add(std::uint32_t(sums.phases))
+            .add(std::uint32_t(made.begin % sums.phases))
+            .add(first_of(made.begin, made))
             .add(std::uint32_t(drives_.stride))
             .add(std::uint32_t(drives_.plane))
             .add(std::uint32_t(source_.width))
             .add(std::uint32_t(plan_.cell_x()));
     };
-    device_.run(program.kernel("refine_begin"), shape(Arguments().add(asked).add(shown).add(error), false),
-                items);
+    device_.run(program.kernel("refine_begin"), shape(Arguments().add(asked).add(shown).add(error)), items);
     double t = 1.0;
     for (unsigned step = 0; step < refine_steps_; ++step) {
         const double next_t = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
         device_.run(
             program.kernel("refine_step"),
             shape(Arguments().add(asked).add(shown).add(error).add(next).add(offsets).add(weights).add(
-                      float((t - 1.0) / next_t)),
-                  true),
+                float((t - 1.0) / next_t))),
             items);
         std::swap(error, next);
         t = next_t;

@@ -25,6 +25,16 @@ enum class ToneOrder {
     noise_aware
 };
 
+/// What one work-item does of a picture: neighbouring cells, and rows with one reading of the taps. The same
+/// bits from every shape.
+struct DisplayShape {
+    unsigned lanes = 16;  ///< 16 or 1
+    unsigned rows = 1;
+};
+
+/// Vectors on a CPU; else neighbours in memory are neighbours in a work-group (docs/performance.md).
+DisplayShape display_shape(const DeviceInfo& device);
+
 /// bins -> exposure, tone map, background -> taps -> refinement -> drives, all on the device.
 struct DisplaySettings {
     float exposure_ev = 0.0f;  ///< radiance is multiplied by 2^exposure_ev
@@ -36,6 +46,7 @@ struct DisplaySettings {
     /// The bounded refinement of the drives, for its panel's taps; only where tones are mapped per bin.
     std::optional<RefineStencil> refine;
     unsigned refine_steps = 8;
+    std::optional<DisplayShape> shape;  ///< none: display_shape of the device
 };
 
 /// Bins that come from a picture of any renderer.

@@ -3,9 +3,15 @@
 
 #include "subpixel/display.h"
 
-/* Neighbouring cells that a work-item does at once. */
+/* Neighbouring cells that a work-item does at once: as many as a CPU's vectors hold; 1 where neighbours in
+ * memory are to be neighbours in a work-group. */
 #ifndef DISPLAY_LANES
 #define DISPLAY_LANES 16
+#endif
+/* Rows that a work-item does with one reading of the taps. On GPUs the tables cost as many loads as the
+ * bins. */
+#ifndef DISPLAY_ROWS
+#define DISPLAY_ROWS 1
 #endif
 /* Taps of each output; those that an output does not need have weight 0. */
 #ifndef DISPLAY_TAPS
@@ -26,83 +32,129 @@ typedef float Lanes;
 #define LANES_WHERE(condition, v) ((condition) ? (v) : 0.0f)
 #endif
 
-/* Four sums side by side: shorter chains round less, and do not wait for each other. */
-TRIAD_FUNCTION Lanes lanes_sum(global const float* in, global const int* offsets,
-                               global const float* weights) {
-    Lanes sums[4];
-    for (uint i = 0u; i < 4u; ++i) sums[i] = (Lanes)(0.0f);
+/* What a work-item does: DISPLAY_ROWS rows of a plane of outputs, from `row` on in steps of `step` (the
+ * phases: rows of one phase share their taps), each for DISPLAY_LANES cells from the run-th such group on. */
+typedef struct TapRun {
+    uint run, row, step, rows, plane;
+    size_t table; /* of offsets and weights: [phase][plane][tap] */
+} TapRun;
+
+/* groups: the work-items for all rows, phases * ceil(rows / (phases * DISPLAY_ROWS)). Row r of the slab is of
+ * phase (first_phase + r) % phases; first_phase < phases. */
+TRIAD_FUNCTION TapRun tap_run(uint runs, uint rows, uint groups, uint phases, uint first_phase, uint planes) {
+    const uint item = (uint)get_global_id(0), line = item / runs;
+    TapRun r;
+    r.run = item - line * runs;
+    r.plane = line / groups;
+    const uint group = line - r.plane * groups, of = group / phases, phase = group - of * phases;
+    r.row = of * phases * DISPLAY_ROWS + phase;
+    r.step = phases;
+    r.rows = r.plane < planes ? rows : 0u;
+    const uint turned = first_phase + phase;
+    r.table = (size_t)((turned < phases ? turned : turned - phases) * planes + r.plane) * DISPLAY_TAPS;
+    return r;
+}
+TRIAD_FUNCTION int tap_has_row(const TapRun* r, uint k) { return r->row + k * r->step < r->rows; }
+/* The k-th row; beyond the last one that again, which may be read. */
+TRIAD_FUNCTION size_t tap_row(const TapRun* r, uint k) { return min(r->row + k * r->step, r->rows - 1u); }
+
+/* The tap-th products of all rows. */
+TRIAD_FUNCTION void lanes_add(global const float* const* in, int offset, float weight, Lanes* sums) {
 #pragma unroll
-    for (uint tap = 0u; tap < DISPLAY_TAPS; ++tap)
-        sums[tap & 3u] = fma((Lanes)(weights[tap]), LANES_LOAD(in + offsets[tap]), sums[tap & 3u]);
-    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k)
+        sums[k] = fma((Lanes)(weight), LANES_LOAD(in[k] + offset), sums[k]);
+}
+
+/* Sums of all rows. Four side by side for each: shorter chains round less, and do not wait for each other.
+ * Unrolled further for vectors alone: a GPU's compiler would read everything first and run out of registers.
+ */
+TRIAD_FUNCTION void lanes_sum(global const float* const* in, global const int* offsets,
+                              global const float* weights, Lanes* out) {
+    Lanes sums[4][DISPLAY_ROWS];
+    for (uint i = 0u; i < 4u; ++i)
+        for (uint k = 0u; k < DISPLAY_ROWS; ++k) sums[i][k] = (Lanes)(0.0f);
+#if DISPLAY_LANES > 1
+#pragma unroll
+#endif
+    for (uint tap = 0u; tap + 4u <= DISPLAY_TAPS; tap += 4u)
+#pragma unroll
+        for (uint i = 0u; i < 4u; ++i) lanes_add(in, offsets[tap + i], weights[tap + i], sums[i]);
+#pragma unroll
+    for (uint i = 0u; i < DISPLAY_TAPS % 4u; ++i) {
+        const uint tap = DISPLAY_TAPS / 4u * 4u + i;
+        lanes_add(in, offsets[tap], weights[tap], sums[i]);
+    }
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k) out[k] = (sums[0][k] + sums[1][k]) + (sums[2][k] + sums[3][k]);
 }
 TRIAD_FUNCTION Lanes lanes_saturate(Lanes v) {
     return v > 0.0f ? (v < 1.0f ? v : (Lanes)(1.0f)) : (Lanes)(0.0f);
 }
 
 /* out[plane][row] = sum over taps of weight * in[row * in_step + offset], for rows of `runs` times
- * DISPLAY_LANES floats. offsets, weights: [phase][plane][tap]; row r of the slab is of phase (first_phase +
- * r) % phases. */
+ * DISPLAY_LANES floats. */
 kernel void sum_taps(global const float* in, global float* out, global const int* offsets,
-                     global const float* weights, uint runs, uint rows, uint planes, uint phases,
+                     global const float* weights, uint runs, uint rows, uint groups, uint planes, uint phases,
                      uint first_phase, uint in_first, uint in_step, uint out_first, uint out_stride,
                      uint out_plane) {
-    const uint item = (uint)get_global_id(0);
-    const uint run = item % runs, row = item / runs % rows, plane = item / runs / rows;
-    if (plane >= planes) return;
-    const size_t table = (size_t)((first_phase + row) % phases * planes + plane) * DISPLAY_TAPS;
-    const size_t from = in_first + (size_t)row * in_step + run * DISPLAY_LANES;
-    const size_t to = out_first + (size_t)plane * out_plane + (size_t)row * out_stride + run * DISPLAY_LANES;
-    LANES_STORE(lanes_sum(in + from, offsets + table, weights + table), out + to);
+    const TapRun r = tap_run(runs, rows, groups, phases, first_phase, planes);
+    if (!tap_has_row(&r, 0u)) return;
+    global const float* from[DISPLAY_ROWS];
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k)
+        from[k] = in + (in_first + tap_row(&r, k) * in_step + r.run * DISPLAY_LANES);
+    Lanes sums[DISPLAY_ROWS];
+    lanes_sum(from, offsets + r.table, weights + r.table, sums);
+    global float* to = out + (out_first + (size_t)r.plane * out_plane + r.run * DISPLAY_LANES);
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k)
+        if (tap_has_row(&r, k)) LANES_STORE(sums[k], to + tap_row(&r, k) * out_stride);
 }
 
-/* Where a work-item of the refinement is, in planes of drives. */
-typedef struct RefineRun {
-    size_t at;
-    size_t table; /* of offsets and weights */
-    int inside;   /* cells of the run that are in the picture */
-    int valid;
-} RefineRun;
-
-TRIAD_FUNCTION RefineRun refine_run(uint runs, uint rows, uint planes, uint phases, uint first_phase,
-                                    uint first, uint stride, uint plane_floats, uint width, uint cell_x) {
-    const uint item = (uint)get_global_id(0);
-    const uint run = item % runs, row = item / runs % rows, plane = item / runs / rows;
-    RefineRun r;
-    r.valid = plane < planes;
-    r.table = (size_t)((first_phase + row) % phases * planes + plane) * DISPLAY_TAPS;
-    r.at = first + (size_t)plane * plane_floats + (size_t)row * stride + run * DISPLAY_LANES;
-    r.inside = (int)((width + cell_x - 1u - plane % cell_x) / cell_x) - (int)(run * DISPLAY_LANES);
-    return r;
+/* Where a row of a refinement's run is, in planes of drives. */
+TRIAD_FUNCTION size_t refine_at(const TapRun* r, uint k, uint first, uint stride, uint plane_floats) {
+    return first + (size_t)r->plane * plane_floats + tap_row(r, k) * stride + r->run * DISPLAY_LANES;
+}
+/* Cells of the run that are in the picture. */
+TRIAD_FUNCTION int refine_inside(const TapRun* r, uint width, uint cell_x) {
+    return (int)((width + cell_x - 1u - r->plane % cell_x) / cell_x) - (int)(r->run * DISPLAY_LANES);
 }
 
 /* The bounded refinement: least (d - d0)^T A (d - d0) with every drive in [0, 1], by accelerated projected
  * gradients (Beck and Teboulle 2009, "A fast iterative shrinkage-thresholding algorithm", FISTA with a
  * constant step). error = y - d0, 0 outside the picture: nothing is clipped there. */
 kernel void refine_begin(global const float* asked, global float* shown, global float* error, uint runs,
-                         uint rows, uint planes, uint first, uint stride, uint plane_floats, uint width,
-                         uint cell_x) {
-    const RefineRun r = refine_run(runs, rows, planes, 1u, 0u, first, stride, plane_floats, width, cell_x);
-    if (!r.valid) return;
-    const Lanes d0 = LANES_LOAD(asked + r.at), d = lanes_saturate(d0);
-    LANES_STORE(d, shown + r.at);
-    LANES_STORE(LANES_WHERE(LANES_INDICES < r.inside, d - d0), error + r.at);
+                         uint rows, uint groups, uint planes, uint phases, uint first_phase, uint first,
+                         uint stride, uint plane_floats, uint width, uint cell_x) {
+    const TapRun r = tap_run(runs, rows, groups, phases, first_phase, planes);
+    const int inside = refine_inside(&r, width, cell_x);
+    for (uint k = 0u; k < DISPLAY_ROWS && tap_has_row(&r, k); ++k) {
+        const size_t at = refine_at(&r, k, first, stride, plane_floats);
+        const Lanes d0 = LANES_LOAD(asked + at), d = lanes_saturate(d0);
+        LANES_STORE(d, shown + at);
+        LANES_STORE(LANES_WHERE(LANES_INDICES < inside, d - d0), error + at);
+    }
 }
 
 /* weights hold the step; momentum is (t_k - 1) / t_(k + 1). */
 kernel void refine_step(global const float* asked, global float* shown, global const float* error,
                         global float* next_error, global const int* offsets, global const float* weights,
-                        float momentum, uint runs, uint rows, uint planes, uint phases, uint first_phase,
-                        uint first, uint stride, uint plane_floats, uint width, uint cell_x) {
-    const RefineRun r =
-        refine_run(runs, rows, planes, phases, first_phase, first, stride, plane_floats, width, cell_x);
-    if (!r.valid) return;
-    const Lanes gradient = lanes_sum(error + r.at, offsets + r.table, weights + r.table);
-    const Lanes d0 = LANES_LOAD(asked + r.at), before = LANES_LOAD(shown + r.at);
-    const Lanes d = lanes_saturate(d0 + LANES_LOAD(error + r.at) - gradient);
-    const Lanes ahead = fma((Lanes)(momentum), d - before, d);
-    LANES_STORE(d, shown + r.at);
-    LANES_STORE(LANES_WHERE(LANES_INDICES < r.inside, ahead - d0), next_error + r.at);
+                        float momentum, uint runs, uint rows, uint groups, uint planes, uint phases,
+                        uint first_phase, uint first, uint stride, uint plane_floats, uint width,
+                        uint cell_x) {
+    const TapRun r = tap_run(runs, rows, groups, phases, first_phase, planes);
+    if (!tap_has_row(&r, 0u)) return;
+    const int inside = refine_inside(&r, width, cell_x);
+    global const float* from[DISPLAY_ROWS];
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k) from[k] = error + refine_at(&r, k, first, stride, plane_floats);
+    Lanes gradients[DISPLAY_ROWS];
+    lanes_sum(from, offsets + r.table, weights + r.table, gradients);
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k)
+        if (tap_has_row(&r, k)) {
+            const size_t at = refine_at(&r, k, first, stride, plane_floats);
+            const Lanes d0 = LANES_LOAD(asked + at), before = LANES_LOAD(shown + at);
+            const Lanes d = lanes_saturate(d0 + LANES_LOAD(from[k]) - gradients[k]);
+            const Lanes ahead = fma((Lanes)(momentum), d - before, d);
+            LANES_STORE(d, shown + at);
+            LANES_STORE(LANES_WHERE(LANES_INDICES < inside, ahead - d0), next_error + at);
+        }
 }
 
 /* display: [pixel][R, G, B, alpha] of `rows` rows, display-linear in [0, 1] (TONE_NEVER: as it is). drives:
