@@ -138,14 +138,19 @@ TEST(Taps, a_picture_whose_bins_end_within_a_pixel_reflects_the_rest) {
                     std::to_string(columns) + "x" + std::to_string(rows));
 }
 
-TEST(Taps, pieces_of_little_memory_give_the_bits_of_one) {
+TEST(Taps, pieces_of_little_memory_and_any_shape_of_work_give_the_bits_of_one) {
     Device small = limited_device(240 * 1024);
-    for (const bool separable : {false, true}) {
-        const BinImage image = random_image(200 * 3, 150 * 3, 3, 3);
-        const TapTable table =
-            separable ? filter_taps(parse_filter("mitchell"), 3, 3) : varied_table(3, 3, 2, 2, true);
-        EXPECT_EQ(resolve_display(small, image, linear(table)),
-                  resolve_display(test_device(), image, linear(table)));
+    const BinImage image = random_image(200 * 3, 151 * 3, 3, 3);
+    for (const TapTable& table : {filter_taps(parse_filter("mitchell"), 3, 3), varied_table(3, 3, 2, 2, true),
+                                  varied_table(3, 3, 1, 3, false)}) {
+        DisplaySettings settings = linear(table);
+        const std::vector<float> whole = resolve_display(test_device(), image, settings);
+        EXPECT_EQ(resolve_display(small, image, settings), whole);
+        for (const DisplayShape shape : {DisplayShape{16, 1}, {16, 2}, {1, 1}, {1, 3}, {1, 4}}) {
+            settings.shape = shape;
+            EXPECT_EQ(resolve_display(small, image, settings), whole)
+                << shape.lanes << " lanes, " << shape.rows << " rows";
+        }
     }
 }
 
