@@ -1,5 +1,6 @@
 #include "app/bench_error.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -7,6 +8,7 @@
 #include <memory>
 
 #include "app/bench_tables.h"
+#include "app/command_line.h"
 #include "app/error_report.h"
 #include "app/experiment.h"
 #include "app/interrupt.h"
@@ -262,7 +264,7 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
         ->check(CLI::Range(1, 1 << 24))
         ->type_name("N");
     command->add_option("--time", o->time, "Begin no budget that would make a run longer than this")
-        ->check(CLI::PositiveNumber)
+        ->check(number_within(1e-6, 1e9))
         ->type_name("S");
     command
         ->add_option("--reference-spp", o->reference_spp,

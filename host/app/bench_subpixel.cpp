@@ -1,11 +1,13 @@
 #include "app/bench_subpixel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
 
+#include "app/command_line.h"
 #include "app/compare_perceived.h"
 #include "app/experiment.h"
 #include "app/interrupt.h"
@@ -198,7 +200,7 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     command->add_option("--ppd", o->ppd, "Pixels per degree of each (default: the panel's, else 45)")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::Range(5.0, 1000.0))
+        ->check(number_within(5, 1000))
         ->type_name("LIST");
     command->add_option("--rays", o->rays, "Per pixel (default 9,36,144)")
         ->delimiter(',')

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/command_line.h"
 #include "app/error_pictures.h"
 #include "app/output.h"
 #include "app/panel_file.h"
@@ -120,7 +121,7 @@ void declare_perceived(CLI::App& command, PerceivedOptions& o) {
         ->type_name("PANEL")
         ->group(group);
     command.add_option("--ppd", o.ppd, "Pixels per degree (default: the panel's, else 45)")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(number_within(1, 1000))
         ->type_name("X")
         ->group(group);
     command.add_option("--eye", o.eyes, "scielab, sharp, flip (default: all; the first decides)")

@@ -12,6 +12,7 @@
 #include <iterator>
 #include <map>
 
+#include "app/command_line.h"
 #include "app/metadata.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -75,7 +76,7 @@ void write_standard_output(const std::vector<std::uint8_t>& bytes) {
 void declare_style(CLI::App& command, OutputStyle& style) {
     const char* const group = "Output";
     command.add_option("--exposure", style.exposure, "In EV, for tone-mapped outputs (default 0)")
-        ->check(CLI::Range(-64.0, 64.0))
+        ->check(number_within(-64, 64))
         ->type_name("EV")
         ->group(group);
     command.add_option("--tonemap", style.tone_map, "none, aces, agx or khronos (the default: PBR Neutral)")

@@ -1,4 +1,5 @@
 // triad render: from a scene to pictures.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>

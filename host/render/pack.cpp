@@ -1,5 +1,6 @@
 #include "render/pack.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

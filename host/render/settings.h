@@ -6,6 +6,7 @@
 #include <string>
 
 #include "panel/taps.h"
+#include "scene/scene.h"
 #include "scene/view.h"
 
 namespace triad {
@@ -67,6 +68,10 @@ struct RenderSettings {
     /// triangles, and instanced (smaller) beyond.
     std::size_t flatten_below = 2'000'000;
 };
+
+/// Whether rays that start here, and the light of the scene so strengthened, stay within scene/limits.h.
+/// Throws Error(usage) that names what does not and the option that mends it.
+void check_limits(const RenderSettings& settings, const Scene& scene);
 
 /// JSON of every member: equal settings, equal text. What partial renders are compared by.
 std::string text_of(const RenderSettings& settings);

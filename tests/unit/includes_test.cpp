@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
 
 namespace fs = std::filesystem;
 
