@@ -46,9 +46,10 @@ using limits::text_of;
 
 const std::string too_far = "has a coordinate beyond " + text_of(limits::coordinate) +
                             ", too large for the products of lengths that floats hold; scale the scene down";
-const std::string too_large = " beyond " + text_of(limits::squared) + ", which float cannot square";
-const std::string no_brightness =
-    "has a radiance or intensity that is negative, no number, or beyond " + text_of(limits::brightness);
+const std::string too_large =
+    " beyond " + text_of(limits::squared) + ", which float cannot square; give a smaller one";
+const std::string no_brightness = "has a radiance or intensity that is negative, no number, or beyond " +
+                                  text_of(limits::brightness) + "; scale all light down";
 
 template <class Vector>
 void require_near(const Vector& position, const std::string& what) {
@@ -197,7 +198,7 @@ void check_placed(const Scene& scene) {
                     within(camera.magnification, limits::coordinate),
                 what,
                 ("has a magnification (xmag, ymag) that is not positive, or beyond " +
-                 text_of(limits::coordinate))
+                 text_of(limits::coordinate) + "; scale the scene down")
                     .c_str());
     }
 }

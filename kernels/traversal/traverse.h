@@ -128,14 +128,14 @@ TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const
     global const TriangleBlock* block = scene->blocks + (leaf & BVH_INDEX);
     TriangleHits hits;
     const int4 lanes = triangle_intersect(block, ray, best->t, skip, &hits);
-    /* Selects, as fast as as_uint(convert_char4(lanes)), which kills Intel's compiler for GPUs
-     * (IGC 1.0.12504). */
-    uint mask = (lanes.s0 ? 0xffu : 0u) | (lanes.s1 ? 0xff00u : 0u) | (lanes.s2 ? 0xff0000u : 0u) |
-                (lanes.s3 ? 0xff000000u : 0u);
-    if (mask == 0u) return 0;
+    const int2 pairs = lanes.lo | lanes.hi;
+    if ((pairs.x | pairs.y) == 0) return 0;
 #if !TRAVERSAL_TESTS_ALPHA
     if (any) return 1;
 #endif
+    /* Selects: as_uint(convert_char4(lanes)) kills Intel's compiler for GPUs (IGC 1.0.12504). */
+    uint mask = (lanes.s0 ? 0xffu : 0u) | (lanes.s1 ? 0xff00u : 0u) | (lanes.s2 ? 0xff0000u : 0u) |
+                (lanes.s3 ? 0xff000000u : 0u);
     float t[4], u[4], v[4];
     vstore4(hits.t, 0, t);
     vstore4(hits.u, 0, u);
