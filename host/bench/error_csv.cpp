@@ -1,5 +1,6 @@
 #include "bench/error_csv.h"
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <utility>

@@ -24,9 +24,20 @@ constexpr float padding = 0x1p-19f;
 /// at a time must keep to BVH_DEPTH.
 constexpr unsigned free_height = 48, strict_height = 3 * BVH_DEPTH;
 
+/// What the builder's sums and differences of coordinates, and bins between them, hold as floats.
+constexpr float most_coordinate = 0x1p125f;
+
+bool is_held(const Box& box) {
+    for (int a = 0; a < 3; ++a)
+        if (!(box.lo[a] >= -most_coordinate && box.hi[a] <= most_coordinate)) return false;
+    return true;
+}
+
+/// False when a corner is no number, too.
 bool has_area(const BvhTriangle& t) {
     const dvec3 a(t.corner[0]);
-    return glm::cross(dvec3(t.corner[1]) - a, dvec3(t.corner[2]) - a) != dvec3(0.0);
+    const dvec3 n = glm::cross(dvec3(t.corner[1]) - a, dvec3(t.corner[2]) - a);
+    return n != dvec3(0.0) && std::isfinite(n.x + n.y + n.z);
 }
 
 Box box_of(const BvhTriangle& t) {
@@ -122,13 +133,13 @@ std::vector<Reference> references_of(std::span<const BvhTriangle> triangles,
     parallel_for(triangles.size(), 1u << 14, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             references[i] = {box_of(triangles[i]), std::uint32_t(i)};
-            drawn[i] = has_area(triangles[i]);
+            drawn[i] = has_area(triangles[i]) && is_held(references[i].box);
         }
     });
     std::erase_if(references, [&](const Reference& r) { return !drawn[r.item]; });
     for (std::size_t i = 0; i < instances.size(); ++i)
-        if (!instances[i].bounds.empty())
-            references.push_back({box_of(instances[i].bounds), std::uint32_t(triangles.size() + i)});
+        if (const Box box = box_of(instances[i].bounds); !instances[i].bounds.empty() && is_held(box))
+            references.push_back({box, std::uint32_t(triangles.size() + i)});
     return references;
 }
 

@@ -36,7 +36,8 @@ struct BvhInstance {
 /// Builds one tree, appends it to `pool` and returns the index of its root node. Deterministic, whatever the
 /// number of threads. Exact duplicates (the same three corners) keep the lowest primitive only.
 /// `origin_reach` is the largest coordinate that a ray origin may have in this space: boxes are padded for
-/// rounding at that magnitude. Precondition: corners are finite. An empty tree is a root whose children are
+/// rounding at that magnitude. Left out: triangles without area, and what has a coordinate that is no number
+/// or beyond 2^125 (validate() refuses such scenes long before). An empty tree is a root whose children are
 /// all BVH_EMPTY.
 std::uint32_t build_bvh(std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances,
                         float origin_reach, BvhPool& pool);

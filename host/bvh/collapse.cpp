@@ -1,7 +1,6 @@
 #include "bvh/collapse.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace triad::bvh {
 
@@ -24,13 +23,14 @@ void CheapestCollapse::plan(std::size_t n) {
         return;
     }
     const Plan &l = plans_[n + 1], &r = plans_[nodes_[n].right_or_first];
+    // One slot for the left child where no cost tells: infinite areas are never less than each other.
     const auto best = [&](int slots) {
-        float cost = std::numeric_limits<float>::infinity();
-        for (int k = 1; k < slots; ++k)
-            if (const float c = l.cost[k - 1] + r.cost[slots - k - 1]; c < cost) {
-                cost = c;
-                p.left[slots - 1] = std::uint8_t(k);
-            }
+        const auto cost_of = [&](int k) { return l.cost[k - 1] + r.cost[slots - k - 1]; };
+        int left = 1;
+        float cost = cost_of(1);
+        for (int k = 2; k < slots; ++k)
+            if (const float c = cost_of(k); c < cost) cost = c, left = k;
+        p.left[slots - 1] = std::uint8_t(left);
         return cost;
     };
     p.cost[0] = nodes_[n].box.half_area() + best(BVH_WIDTH);

@@ -12,6 +12,7 @@ void add_random(std::vector<CheckCase>& cases);
 void add_sampling(std::vector<CheckCase>& cases);
 void add_traversal(std::vector<CheckCase>& cases);
 void add_traversal_reference(std::vector<CheckCase>& cases);
+void add_any_bits(std::vector<CheckCase>& cases);
 void add_ggx(std::vector<CheckCase>& cases);
 void add_bsdf(std::vector<CheckCase>& cases);
 void add_bsdf_energy(std::vector<CheckCase>& cases);

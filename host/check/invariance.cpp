@@ -1,5 +1,7 @@
 // A picture is a function of scene, settings and samples: not of how the work was cut, scheduled, placed or
 // specialised.
+#include <algorithm>
+
 #include "check/cases.h"
 #include "check/picture.h"
 #include "kernels/types.h"

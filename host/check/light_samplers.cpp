@@ -1,5 +1,7 @@
 // What light sampling draws: lights by their shares, directions of the environment by their densities.
+#include <bit>
 #include <numeric>
+#include <tuple>
 
 #include "check/cases.h"
 #include "check/kernels.h"

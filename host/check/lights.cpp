@@ -1,4 +1,5 @@
 // Light sampling: the environment's directions, which light is picked, and what a sample weighs.
+#include "check/any_bits.h"
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
@@ -26,6 +27,15 @@ __kernel void draw(__global float4* out, SCENE_PARAMETERS, uint count) {
     if (lit && l.distant) environment_radiance(&scene, l.direction, &pdf);
     out[2 * i] = lit ? (float4)(l.direction, l.inverse_pdf) : (float4)(0.0f);
     out[2 * i + 1] = lit ? (float4)(pdf, l.weight.y, l.uv) : (float4)(0.0f);
+}
+/* The map's radiance from a direction. */
+__kernel void look(__global float4* out, SCENE_PARAMETERS, __global const float* directions, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    float pdf;
+    const float3 radiance = environment_radiance(&scene, vload3(i, directions), &pdf);
+    out[i] = (float4)(radiance, pdf);
 }
 )";
 
@@ -76,6 +86,25 @@ void environment_samples(Check& check) {
     }
 }
 
+void any_direction(Check& check) {
+    const unsigned w = 8, h = 4;
+    Builder b;
+    b.add(square(-1, true), lambert(0.5f)).scene.environment =
+        EnvironmentMap{w, h, std::vector<float>(w * h * 3, 2.0f)};
+    const OnDevice world = on_device(check.device, b.scene);
+    const std::size_t count = check.count(1 << 18, 1024);
+    any_bits::Words words(16);
+    std::vector<float> directions(count * 3);
+    for (float& d : directions) d = words.number();
+    const auto seen =
+        run_kernel<Four>(check.device, source, "look",
+                         Arguments().add(world.arguments).add(check.device.upload(directions)), count);
+    std::size_t wrong = 0, numbers = 0;
+    for (const Four& s : seen) numbers += s[0] == s[0], wrong += s[0] == s[0] && s[0] != 2.0f;
+    check.at_most(double(wrong), 0, "radiances that are not in the map, of ", numbers);
+    check.above(double(numbers), double(count) / 4, "radiances");
+}
+
 void tiny_far_light(Check& check) {
     // C15: a square of area 1e-12 at a distance of 1e6 gives E = L A / d^2 = 1e-24, from any of its samples.
     Builder b;
@@ -116,6 +145,7 @@ void add_lights(std::vector<CheckCase>& cases) {
                      {"C15", "tiny far light", quick, tiny_far_light},
                      {"C15b", "power heuristic at its ends", quick, heuristic_at_its_ends},
                      {"C16e", "samples of the environment and their density", quick, environment_samples},
+                     {"C16f", "the environment from any bits", quick, any_direction},
                  });
 }
 

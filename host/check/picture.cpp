@@ -1,5 +1,7 @@
 #include "check/picture.h"
 
+#include <algorithm>
+
 namespace triad::picture_case {
 
 Material lambert(float albedo) {

@@ -1,11 +1,19 @@
 #include "cli/bench_error.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
 
+#include "report/bench_tables.h"
+#include "cli/command_line.h"
+#include "report/error_report.h"
+#include "cli/experiment.h"
+#include "base/interrupt.h"
+#include "session/prepare.h"
+#include "session/reference_store.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -262,7 +270,7 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
         ->check(CLI::Range(1, 1 << 24))
         ->type_name("N");
     command->add_option("--time", o->time, "Begin no budget that would make a run longer than this")
-        ->check(CLI::PositiveNumber)
+        ->check(number_within(1e-6, 1e9))
         ->type_name("S");
     command
         ->add_option("--reference-spp", o->reference_spp,

@@ -1,11 +1,21 @@
 #include "cli/bench_subpixel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <memory>
 
+#include "cli/command_line.h"
+#include "cli/compare_perceived.h"
+#include "cli/experiment.h"
+#include "base/interrupt.h"
+#include "session/output.h"
+#include "session/panel_file.h"
+#include "session/prepare.h"
+#include "report/subpixel_report.h"
+#include "cli/suite.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -198,7 +208,7 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     command->add_option("--ppd", o->ppd, "Pixels per degree of each (default: the panel's, else 45)")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::Range(5.0, 1000.0))
+        ->check(number_within(5, 1000))
         ->type_name("LIST");
     command->add_option("--rays", o->rays, "Per pixel (default 9,36,144)")
         ->delimiter(',')

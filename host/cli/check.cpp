@@ -1,4 +1,5 @@
 // triad check: is this device right? Known answers through the real kernels.
+#include <cmath>
 #include <cstdio>
 #include <memory>
 

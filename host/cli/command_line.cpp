@@ -7,6 +7,7 @@
 
 #include "base/colour.h"
 #include "base/log.h"
+#include "scene/limits.h"
 
 namespace triad {
 namespace {
@@ -31,6 +32,17 @@ void add_common(CLI::App& command) {
         "-q,--quiet", [] { set_log_level(0); }, "Errors only");
     command.add_flag_callback(
         "-v,--verbose", [] { set_log_level(2); }, "Say more");
+}
+
+CLI::Validator number_within(double lo, double hi) {
+    const std::string range = limits::text_of(lo) + " to " + limits::text_of(hi);
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0;
+            const bool good = CLI::detail::lexical_cast(text, value) && value >= lo && value <= hi;
+            return good ? std::string() : "expected a number from " + range + ", not " + text;
+        },
+        range);
 }
 
 uvec2 parse_size(const std::string& option, const std::string& value) {

@@ -24,6 +24,9 @@ void add_bench(CLI::App& app, Exit& exit);
 /// -q and -v.
 void add_common(CLI::App& command);
 
+/// For options: a number from lo to hi. (CLI11's own ranges take "nan" for one within.)
+CLI::Validator number_within(double lo, double hi);
+
 /// "640x480"; both at least 1 and at most 65536.
 uvec2 parse_size(const std::string& option, const std::string& value);
 /// "A:B", half-open, A < B.

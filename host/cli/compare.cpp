@@ -154,11 +154,21 @@ void add_compare(CLI::App& app, Exit& exit) {
         ->allow_extra_args(false)
         ->check(CLI::IsMember({"rmse", "relmse", "mae", "psnr", "flip", "perceived"}))
         ->type_name("LIST");
-    command->add_option("--max-rmse", o->max_rmse, "Exit 7 above this")->type_name("X");
-    command->add_option("--max-relmse", o->max_relmse, "Exit 7 above this")->type_name("X");
-    command->add_option("--max-mae", o->max_mae, "Exit 7 above this")->type_name("X");
-    command->add_option("--max-flip", o->max_flip, "Exit 7 above this")->type_name("X");
-    command->add_option("--min-psnr", o->min_psnr, "Exit 7 below this")->type_name("X");
+    command->add_option("--max-rmse", o->max_rmse, "Exit 7 above this")
+        ->check(number_within(0, 1e30))
+        ->type_name("X");
+    command->add_option("--max-relmse", o->max_relmse, "Exit 7 above this")
+        ->check(number_within(0, 1e30))
+        ->type_name("X");
+    command->add_option("--max-mae", o->max_mae, "Exit 7 above this")
+        ->check(number_within(0, 1e30))
+        ->type_name("X");
+    command->add_option("--max-flip", o->max_flip, "Exit 7 above this")
+        ->check(number_within(0, 1e30))
+        ->type_name("X");
+    command->add_option("--min-psnr", o->min_psnr, "Exit 7 below this")
+        ->check(number_within(-1e3, 1e3))
+        ->type_name("X");
     declare_perceived(*command, o->perceived);
     command->add_option("--json", o->json, "Write the numbers as JSON (-: standard output)")
         ->type_name("FILE");

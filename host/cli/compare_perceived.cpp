@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/command_line.h"
+#include "report/error_pictures.h"
+#include "session/output.h"
+#include "session/panel_file.h"
 #include "base/colour.h"
 #include "base/files.h"
 #include "base/log.h"
@@ -120,7 +124,7 @@ void declare_perceived(CLI::App& command, PerceivedOptions& o) {
         ->type_name("PANEL")
         ->group(group);
     command.add_option("--ppd", o.ppd, "Pixels per degree (default: the panel's, else 45)")
-        ->check(CLI::Range(1.0, 1000.0))
+        ->check(number_within(1, 1000))
         ->type_name("X")
         ->group(group);
     command.add_option("--eye", o.eyes, "scielab, sharp, flip (default: all; the first decides)")

@@ -1,11 +1,13 @@
 #include "cli/output_options.h"
 
+#include "cli/command_line.h"
+
 namespace triad {
 
 void declare_style(CLI::App& command, OutputStyle& style) {
     const char* const group = "Output";
     command.add_option("--exposure", style.exposure, "In EV, for tone-mapped outputs (default 0)")
-        ->check(CLI::Range(-64.0, 64.0))
+        ->check(number_within(-64, 64))
         ->type_name("EV")
         ->group(group);
     command.add_option("--tonemap", style.tone_map, "none, aces, agx or khronos (the default: PBR Neutral)")

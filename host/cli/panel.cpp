@@ -126,7 +126,7 @@ void add_panel(CLI::App& app, Exit& exit) {
     command
         ->add_option("--ppd", o->ppd,
                      "Pixels per degree that they are designed for (default: the panel's, else 45)")
-        ->check(CLI::Range(5.0, 1000.0))
+        ->check(number_within(5, 1000))
         ->type_name("X");
     command->add_option("--bins", o->bins, "Bins per pixel of the film (default 3x3)")->type_name("BXxBY");
     command

@@ -1,6 +1,9 @@
 #include "cli/reconstruct_options.h"
 
+#include <algorithm>
+
 #include "cli/command_line.h"
+#include "session/panel_file.h"
 
 namespace triad {
 void declare(CLI::App& command, ReconstructRequest& o) {
@@ -40,17 +43,17 @@ void declare(CLI::App& command, ReconstructRequest& o) {
         command
             .add_option("--ppd", o.ppd,
                         "Pixels per degree of the display as it is seen (default: the panel's, or 45)")
-            ->check(CLI::Range(5.0, 1000.0))
+            ->check(number_within(5, 1000))
             ->type_name("P")
             ->group(group);
     CLI::Option* distance =
         command.add_option("--distance", o.distance, "Instead of --ppd: from the eye to the display")
-            ->check(CLI::PositiveNumber)
+            ->check(number_within(1e-9, 1e9))
             ->excludes(ppd)
             ->type_name("D")
             ->group(group);
     command.add_option("--pitch", o.pitch, "With --distance: of its pixels, in the same unit")
-        ->check(CLI::PositiveNumber)
+        ->check(number_within(1e-9, 1e9))
         ->needs(distance)
         ->type_name("D")
         ->group(group);

@@ -8,6 +8,7 @@
 #include "cli/command_line.h"
 #include "cli/output_options.h"
 #include "cli/reconstruct_options.h"
+#include "scene/limits.h"
 
 namespace triad {
 namespace {
@@ -43,12 +44,12 @@ void declare(CLI::App& command, RenderRequest& o) {
         ->check(CLI::Range(std::uint64_t(1), most_samples))
         ->type_name("N");
     command.add_option("--error", o.error, "Stop when the estimated relMSE of the picture is this low")
-        ->check(CLI::PositiveNumber)
+        ->check(number_within(1e-30, 1e30))
         ->type_name("E");
     command
         .add_option("--time", o.time,
                     "Stop after so many seconds of rendering (loading and compiling not counted)")
-        ->check(CLI::PositiveNumber)
+        ->check(number_within(1e-6, 1e9))
         ->type_name("S");
     add_parsed(command, "--adaptive", "on|off",
                "Send samples where they lower the error most (default on with --error or --time)",
@@ -66,7 +67,7 @@ void declare(CLI::App& command, RenderRequest& o) {
             "--roulette", o.roulette,
             "Paths that carry less than this are ended in proportion (default 0.8; 0.5: least error for its "
             "time; 1: most samples)")
-        ->check(CLI::Range(0.01, 10.0))
+        ->check(number_within(0.01, 10))
         ->type_name("T");
     add_parsed(
         command, "--integrator", "NAME",
@@ -97,7 +98,7 @@ void declare(CLI::App& command, RenderRequest& o) {
             "--photon-radius", o.photon_radius,
             "In which photons are gathered, in scene units: of the first sample, after which it shrinks, "
             "or of photon-map (default: chosen by the scene)")
-        ->check(CLI::Range(1e-12, 1e12))
+        ->check(number_within(1e-12, 1e12))
         ->type_name("R");
     add_parsed(command, "--photon-aim", "on|off",
                "Aim photons at what mirrors and refracts (default on; off: to compare)",
@@ -156,24 +157,29 @@ void declare(CLI::App& command, RenderRequest& o) {
     add_parsed(command, "--look-at", "EX,EY,EZ,TX,TY,TZ", "From this eye point to this target",
                [&o](const std::string& v) {
                    const auto n = parse_numbers("--look-at", v, 6);
+                   for (const double x : n)
+                       if (std::abs(x) > limits::ray_start)
+                           throw Error(Exit::usage, "--look-at " + v + ": expected coordinates up to " +
+                                                        limits::text_of(limits::ray_start) +
+                                                        "; scale the scene down.");
                    o.look_at.emplace();
                    std::copy(n.begin(), n.end(), o.look_at->begin());
                })
         ->excludes(camera)
         ->group(view_group);
     command.add_option("--fov", o.fov, "Vertical angle of view in degrees")
-        ->check(CLI::Range(0.001, 179.0))
+        ->check(number_within(0.001, 179))
         ->type_name("DEG")
         ->group(view_group);
     command.add_option("--aperture", o.aperture, "Lens radius in scene units (default 0: all sharp)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_within(0, limits::ray_start))
         ->type_name("R")
         ->group(view_group);
     command
         .add_option(
             "--focus", o.focus,
             "Distance that is sharp, along the view (default: the target, or the middle of the scene)")
-        ->check(CLI::PositiveNumber)
+        ->check(number_within(1 / limits::squared, limits::squared))
         ->type_name("D")
         ->group(view_group);
 
@@ -195,11 +201,12 @@ void declare(CLI::App& command, RenderRequest& o) {
                            ->type_name("FILE")
                            ->group(light_group);
     command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis, from +x towards +z")
+        ->check(number_within(-1e6, 1e6))
         ->type_name("DEG")
         ->needs(env)
         ->group(light_group);
     command.add_option("--env-strength", o.env_strength, "Brightness of environment or sky (default 1)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(number_within(0, limits::brightness))
         ->type_name("X")
         ->group(light_group);
     add_parsed(command, "--background", "env|transparent|#RRGGBB",

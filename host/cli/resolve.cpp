@@ -1,4 +1,5 @@
 // triad resolve: pictures from a film or from any renderer's larger picture, without rendering.
+#include <algorithm>
 #include <fstream>
 #include <memory>
 

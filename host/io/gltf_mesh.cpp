@@ -1,5 +1,6 @@
 #include "io/gltf_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -1,5 +1,7 @@
 /// Nodes: where meshes, lights and cameras are.
+#include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "base/error.h"
 #include "io/gltf_accessor.h"

@@ -1,4 +1,5 @@
 /// What a packing promises to the eye, and for which other eyes that holds.
+#include <cstdio>
 #include <algorithm>
 #include <cmath>
 

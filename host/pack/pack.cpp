@@ -1,5 +1,6 @@
 #include "pack/pack.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

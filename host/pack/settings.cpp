@@ -1,12 +1,51 @@
 #include "pack/settings.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <initializer_list>
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "pack/ray_filter.h"
+#include "scene/limits.h"
 
 namespace triad {
+namespace {
+
+/// `value` must be at most `limit`, and a number.
+void require_within(double value, double limit, const std::string& what, const char* what_to_do) {
+    if (std::abs(value) <= limit) return;
+    throw Error(Exit::usage, what + " is " + limits::text_of(value) + ", beyond " + limits::text_of(limit) +
+                                 ", the most that single precision can work with: " + what_to_do + ".");
+}
+
+void check_view(const View& v) {
+    for (int axis = 0; axis < 3; ++axis)
+        require_within(v.eye[axis], limits::ray_start, "A coordinate of the camera",
+                       "give --look-at a nearer eye, or a wider --fov where the whole scene is framed");
+    require_within(v.lens_radius, limits::ray_start, "The radius of the lens", "give a smaller --aperture");
+    require_within(v.extent.x, v.orthographic ? limits::ray_start : limits::squared,
+                   "Half the width of the view", "give a --size of less extreme proportions");
+    require_within(v.extent.y, v.orthographic ? limits::ray_start : limits::squared,
+                   "Half the height of the view", "give a --size of less extreme proportions");
+    if (v.lens_radius == 0) return;
+    require_within(v.focus_distance, limits::squared, "The distance in focus", "give a nearer --focus");
+    require_within(v.lens_radius / v.focus_distance, limits::squared,
+                   "The radius of the lens over the distance in focus",
+                   "give a smaller --aperture or a farther --focus");
+}
+
+}  // namespace
+
+void check_limits(const RenderSettings& s, const Scene& scene) {
+    check_view(s.view);
+    double brightest = std::max({scene.sky.x, scene.sky.y, scene.sky.z});
+    if (scene.environment)
+        for (const float x : scene.environment->rgb) brightest = std::max(brightest, double(x));
+    require_within(s.environment_strength * brightest, limits::brightness,
+                   "The brightest radiance of the environment", "give a smaller --env-strength");
+}
 
 const char* name_of(RayStart start) {
     switch (start) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "panel/taps.h"
+#include "scene/scene.h"
 #include "scene/view.h"
 
 namespace triad {
@@ -72,6 +73,10 @@ struct RenderSettings {
 const char* name_of(RayStart start);
 const char* name_of(Spectral spectral);
 const char* name_of(Integrator integrator);
+
+/// Whether rays that start here, and the light of the scene so strengthened, stay within scene/limits.h.
+/// Throws Error(usage) that names what does not and the option that mends it.
+void check_limits(const RenderSettings& settings, const Scene& scene);
 
 /// JSON of every member: equal settings, equal text. What partial renders are compared by.
 std::string text_of(const RenderSettings& settings);

@@ -1,6 +1,7 @@
 #include "panel/error_form.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 

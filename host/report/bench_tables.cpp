@@ -1,5 +1,6 @@
 #include "report/bench_tables.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "scene/limits.h"
 #include "scene/scene.h"
 
 namespace triad {
@@ -33,6 +34,33 @@ bool all_finite(const std::vector<Vector>& list) {
     return std::all_of(list.begin(), list.end(), [](const Vector& v) { return is_finite(v); });
 }
 
+/// False for what is no number, too.
+template <class Vector>
+bool within(const Vector& v, double limit) {
+    for (int k = 0; k < Vector::length(); ++k)
+        if (!(std::abs(double(v[k])) <= limit)) return false;
+    return true;
+}
+
+using limits::text_of;
+
+const std::string too_far = "has a coordinate beyond " + text_of(limits::coordinate) +
+                            ", too large for the products of lengths that floats hold; scale the scene down";
+const std::string too_large =
+    " beyond " + text_of(limits::squared) + ", which float cannot square; give a smaller one";
+const std::string no_brightness = "has a radiance or intensity that is negative, no number, or beyond " +
+                                  text_of(limits::brightness) + "; scale all light down";
+
+template <class Vector>
+void require_near(const Vector& position, const std::string& what) {
+    require(within(position, limits::coordinate), what, too_far.c_str());
+}
+
+void require_brightness(const vec3& v, const std::string& what) {
+    require(v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f && within(v, limits::brightness), what,
+            no_brightness.c_str());
+}
+
 bool in_unit(float x) { return x >= 0.0f && x <= 1.0f; }
 bool at_least_zero(const vec3& v) { return is_finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f; }
 
@@ -52,18 +80,19 @@ void check_images(const Scene& scene) {
                     map->rgb.size() == std::uint64_t(map->width) * map->height * 3,
                 "The environment map", "has a number of texels that does not fit its size");
         require(std::all_of(map->rgb.begin(), map->rgb.end(),
-                            [](float x) { return std::isfinite(x) && x >= 0.0f; }),
-                "The environment map", "has texels that are negative or no numbers");
+                            [](float x) { return x >= 0.0f && x <= limits::brightness; }),
+                "The environment map", no_brightness.c_str());
     }
-    require(at_least_zero(scene.sky), "The sky", "has a radiance that is negative or no number");
+    require_brightness(scene.sky, "The sky");
 }
 
 void check_material(const Scene& scene, const Material& m, const std::string& what) {
     for (int k = 0; k < 4; ++k) require(in_unit(m.base_colour[k]), what, "has a base colour outside 0 to 1");
     require(in_unit(m.metallic) && in_unit(m.roughness), what,
             "has a metallic or roughness factor outside 0 to 1");
-    require(at_least_zero(m.emission), what, "has an emission that is negative or no number");
-    require(std::isfinite(m.normal_scale), what, "has a normal scale that is no number");
+    require_brightness(m.emission, what);
+    require(std::abs(m.normal_scale) <= limits::squared, what,
+            ("has a normal scale that is no number, or" + too_large).c_str());
     require(std::isfinite(m.alpha_cutoff), what, "has an alpha cutoff that is no number");
     require(m.ior == 0.0f || (m.ior >= 1.0f && std::isfinite(m.ior)), what,
             "has an index of refraction below 1");
@@ -80,7 +109,9 @@ void check_material(const Scene& scene, const Material& m, const std::string& wh
     require(
         at_least_zero(m.attenuation_colour) && glm::all(glm::lessThanEqual(m.attenuation_colour, vec3(1.0f))),
         what, "has an attenuation colour outside 0 to 1");
-    require(m.attenuation_distance > 0.0f, what, "has an attenuation distance that is not positive");
+    require(m.attenuation_distance >= 1.0 / limits::squared, what,
+            ("has an attenuation distance that is no number, or below " + text_of(1.0 / limits::squared))
+                .c_str());
     for (const auto* use :
          {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture,
           &m.specular_texture, &m.specular_colour_texture, &m.transmission_texture}) {
@@ -122,7 +153,10 @@ std::size_t check_primitive(const Scene& scene, Primitive& p, const std::string&
     for (const vec4& t : p.tangents)
         require(std::abs(glm::dot(vec3(t), vec3(t)) - 1.0f) < 1e-3f && std::abs(t.w) == 1.0f, what,
                 "has a tangent that is not of unit length or without sign");
-    return drop_undrawable(p);
+    const std::size_t dropped = drop_undrawable(p);
+    for (const uvec3& t : p.triangles)
+        for (int c = 0; c < 3; ++c) require_near(p.positions[t[c]], what);
+    return dropped;
 }
 
 void check_placed(const Scene& scene) {
@@ -133,12 +167,15 @@ void check_placed(const Scene& scene) {
         require(is_finite(instance.to_world), what, "has a transform with elements that are no numbers");
         require(glm::determinant(dmat3(instance.to_world)) != 0.0, what,
                 "has a transform that cannot be inverted");
+        for (int axis = 0; axis < 3; ++axis)
+            require(within(instance.to_world[axis], limits::squared), what,
+                    ("has a scale" + too_large).c_str());
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const PunctualLight& light = scene.lights[i];
         const std::string what = label("Light", i, light.name);
-        require(at_least_zero(light.colour), what, "has an intensity that is negative or no number");
-        require(is_finite(light.position), what, "has a position that is no number");
+        require_brightness(light.colour, what);
+        require_near(light.position, what);
         require(std::abs(glm::length(light.direction) - 1.0) < 1e-6, what,
                 "has a direction that is not of unit length");
         require(light.range >= 0.0f && std::isfinite(light.range), what,
@@ -153,12 +190,16 @@ void check_placed(const Scene& scene) {
         const SceneCamera& camera = scene.cameras[i];
         const std::string what = label("Camera", i, camera.name);
         require(is_finite(camera.to_world), what, "has a transform with elements that are no numbers");
+        require_near(dvec3(camera.to_world[3]), what);
         require(camera.yfov > 0.0 && camera.yfov < pi, what, "has a field of view outside 0 to 180 degrees");
-        require(camera.aspect >= 0.0 && std::isfinite(camera.aspect), what,
-                "has an aspect ratio that is negative");
-        require(
-            camera.magnification.x > 0.0 && camera.magnification.y > 0.0 && is_finite(camera.magnification),
-            what, "has a magnification that is not positive");
+        require(camera.aspect >= 0.0 && camera.aspect <= 1e6, what,
+                "has an aspect ratio that is negative or beyond a million");
+        require(camera.magnification.x > 0.0 && camera.magnification.y > 0.0 &&
+                    within(camera.magnification, limits::coordinate),
+                what,
+                ("has a magnification (xmag, ymag) that is not positive, or beyond " +
+                 text_of(limits::coordinate) + "; scale the scene down")
+                    .c_str());
     }
 }
 
@@ -185,10 +226,10 @@ std::size_t validate(Scene& scene) {
                                 label("Mesh", i, scene.meshes[i].name) + ", primitive " + std::to_string(k));
     check_placed(scene);
     drop_empty(scene);
-    const Bounds bounds = bounds_of(scene);
-    require(
-        bounds.empty() || (is_finite(bounds.lo) && is_finite(bounds.hi) && glm::length(bounds.size()) < 1e30),
-        "The scene", "is too large: its bounds are beyond 1e30");
+    if (const Bounds bounds = bounds_of(scene); !bounds.empty()) {
+        require_near(bounds.lo, "The scene, placed,");
+        require_near(bounds.hi, "The scene, placed,");
+    }
     return dropped;
 }
 

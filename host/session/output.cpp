@@ -12,6 +12,7 @@
 #include <iterator>
 #include <map>
 
+#include "session/metadata.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "display/resolve.h"

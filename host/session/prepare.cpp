@@ -56,9 +56,9 @@ Scene load_scene(const RenderRequest& o) {
         for (const std::string& warning : report.warnings) warn(warning);
     }
     for (const std::string& text : o.glass) apply_glass(scene, text);
+    if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
     if (const std::size_t dropped = validate(scene))
         detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
-    if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
     if (!has_light(scene)) {
         scene.sky = vec3(1.0f);
         inform("The scene has no light: it gets a plain white sky (--env FILE lights it with a panorama).");
@@ -95,6 +95,7 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
     settings.view = choose_view(o, scene, camera, size);
     settings.environment_rotation = o.env_rotate * pi / 180;
     settings.environment_strength = o.env_strength;
+    check_limits(settings, scene);
     return settings;
 }
 

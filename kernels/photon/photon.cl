@@ -231,7 +231,8 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
         if (sample_out.event & BSDF_TRANSMIT) bodies = around.beyond;
 #endif
         const float most = edge >= PHOTON_ROULETTE_FROM ? PHOTON_ROULETTE : 1.0f;
-        const float survive = math_min(math_max3(throughput) * frame->roulette, most);
+        /* in this order NaN stays NaN, and the photon ends */
+        const float survive = math_min(most, math_max3(throughput) * frame->roulette);
         if (!(random_float(u.y.s1) < survive)) break;
         throughput *= 1.0f / survive;
 #if TRIAD_ALPHA_TEST

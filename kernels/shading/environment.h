@@ -53,8 +53,9 @@ TRIAD_FUNCTION_PER_CALL float3 environment_lookup(const Scene* scene, const Envi
     const float fx = math_floor(x), fy = math_floor(y);
     const int w = (int)e->width, h = (int)e->height;
     int x0 = (int)fx, x1 = x0 + 1;
-    x0 = x0 < 0 ? x0 + w : x0 >= w ? x0 - w : x0;
-    x1 = x1 < 0 ? x1 + w : x1 >= w ? x1 - w : x1;
+    /* clamped for directions that are no numbers */
+    x0 = clamp(x0 < 0 ? x0 + w : x0 >= w ? x0 - w : x0, 0, w - 1);
+    x1 = clamp(x1 < 0 ? x1 + w : x1 >= w ? x1 - w : x1, 0, w - 1);
     const int y0 = clamp((int)fy, 0, h - 1), y1 = clamp((int)fy + 1, 0, h - 1);
     const float ax = x - fx, ay = y - fy;
     const float4 a = environment_texel(scene, e, x0, y0), b = environment_texel(scene, e, x1, y0);

@@ -290,8 +290,9 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
 #endif
 
             const float most = path.edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
+            /* in this order NaN stays NaN, and the path ends */
             const float survive =
-                math_min(colour_max(path.throughput) * frame->roulette / path.body_scale, most);
+                math_min(most, colour_max(path.throughput) * frame->roulette / path.body_scale);
             RECORD(record_end(&tally->recorder, PATH_ROULETTE);)
             if (!(random_float(u.y.s1) < survive)) break;
             path.throughput *= 1.0f / survive;

@@ -76,8 +76,9 @@ TRIAD_FUNCTION float photon_wavelength(const Photon* p) {
 
 /* ---- The grid ---- */
 
+/* Within +-2^30, whatever p is: loops over cells can count beyond. */
 TRIAD_FUNCTION int3 photon_cell(const PhotonMap* map, float3 p) {
-    return convert_int3_sat(floor(p * map->cells_per_unit));
+    return clamp(convert_int3_sat(floor(p * map->cells_per_unit)), (int3)(-0x40000000), (int3)(0x40000000));
 }
 /* The bucket of a cell. The eight cells of any 2 x 2 x 2 block have eight buckets: the low bits tell them
  * apart, and none is searched twice. The hash is Teschner et al.'s (2003). */
@@ -148,8 +149,9 @@ TRIAD_FUNCTION void photon_add(const Scene* scene, const PhotonMap* map, const P
 /* Radiance that the photons around a point send along the path. */
 TRIAD_FUNCTION_ONCE float3 photon_gather(const Scene* scene, const PhotonQuery* query, const VertexBsdf* v) {
     const PhotonMap map = *scene->photon_map;
+    /* two cells along each axis at most, where float no longer tells cells apart too */
     const int3 low = photon_cell(&map, query->position - query->radius),
-               high = photon_cell(&map, query->position + query->radius);
+               high = min(photon_cell(&map, query->position + query->radius), low + 1);
     long sums[3] = {0, 0, 0};
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)

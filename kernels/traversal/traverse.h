@@ -6,6 +6,10 @@
  * rounding (host/bvh/bvh.h), so that a box is never missed whose triangle is hit, and a box's entry is never
  * beyond the t of a triangle inside: results do not depend on the order of visits.
  *
+ * Any bits may stand in a ray (NaN, infinities, no direction): what it hits is then arbitrary, but nothing is
+ * read beyond the arrays, and the walk ends. An empty child is never met (slab_intersect), a node is visited
+ * once, and the stack holds what the depth of the trees allows, whatever the comparisons say.
+ *
  * A program that tests coverage (alpha) defines, before it includes this header,
  *   TRAVERSAL_CONTEXT                                             the type of Traversal.context
  *   TRAVERSAL_ACCEPT(context, instance, primitive, u, v)          0: the ray passes through
@@ -87,7 +91,8 @@ TRIAD_FUNCTION ulong slab_intersect(global const BvhNode* node, const SlabRay* r
     tn = tn > nz ? tn : nz;
     tf = tf < fz ? tf : fz;
     tn = tn > 0.0f ? tn : (float8)(0.0f);
-    tf = tf < t_max ? tf : (float8)(t_max);
+    /* This way round NaN stays NaN: the far planes of an empty child are -inf or NaN whatever the ray is. */
+    tf = t_max < tf ? (float8)(t_max) : tf;
     *entry = tn;
     return as_ulong(convert_char8(tn <= tf)) & 0x8080808080808080ul;
 }
@@ -122,11 +127,15 @@ TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const
                                         uint instance, uint skip, Hit* best, const int any) {
     global const TriangleBlock* block = scene->blocks + (leaf & BVH_INDEX);
     TriangleHits hits;
-    uint mask = as_uint(convert_char4(triangle_intersect(block, ray, best->t, skip, &hits)));
-    if (mask == 0u) return 0;
+    const int4 lanes = triangle_intersect(block, ray, best->t, skip, &hits);
+    const int2 pairs = lanes.lo | lanes.hi;
+    if ((pairs.x | pairs.y) == 0) return 0;
 #if !TRAVERSAL_TESTS_ALPHA
     if (any) return 1;
 #endif
+    /* Selects: as_uint(convert_char4(lanes)) kills Intel's compiler for GPUs (IGC 1.0.12504). */
+    uint mask = (lanes.s0 ? 0xffu : 0u) | (lanes.s1 ? 0xff00u : 0u) | (lanes.s2 ? 0xff0000u : 0u) |
+                (lanes.s3 ? 0xff000000u : 0u);
     float t[4], u[4], v[4];
     vstore4(hits.t, 0, t);
     vstore4(hits.u, 0, u);

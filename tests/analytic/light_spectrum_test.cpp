@@ -1,5 +1,7 @@
 // Lights with spectra behind a prism: every line lands where Snell's law sends it, with its power, and
 // nothing lands elsewhere.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "analytic/analytic_scene.h"

@@ -1,5 +1,6 @@
 #include "embree_tracer.h"
 
+#include <algorithm>
 #include <limits>
 #include <tuple>
 

@@ -1,6 +1,7 @@
 // Recorded paths are the paths of the picture, and what is told about a pixel adds up to it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 

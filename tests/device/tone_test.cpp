@@ -1,6 +1,7 @@
 // Tone maps against their published formulas in double precision, and the resolve from bins to pixels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>

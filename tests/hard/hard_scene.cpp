@@ -1,5 +1,6 @@
 #include "hard_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -1,4 +1,5 @@
 // Hard because of light: bodies within bodies, suns in a texel, sharp mirrors, many lights, many bounces.
+#include <algorithm>
 #include <cmath>
 
 #include "hard_scene.h"

@@ -1,5 +1,7 @@
 // Whole pictures that must be equal, and some that must not, by the statistics of measure/statistics.h: seeds
 // are fixed, and equal pictures would be called different once in a million seeds.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "display/perceived_sets.h"

@@ -129,6 +129,15 @@ TEST(Simulator, sees_a_read_out_of_bounds_that_changes_no_value) {
     EXPECT_NE(oclgrind("", kernels.folder, "C16e").find("Invalid read"), std::string::npos);
 }
 
+TEST(Simulator, sees_an_empty_child_that_a_ray_of_no_numbers_meets) {
+    if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
+    EXPECT_EQ(oclgrind("", fs::path(TRIAD_SOURCE_DIR) / "kernels", "C25"), "");
+    const FaultyKernels kernels("traversal/traverse.h", "tf = t_max < tf ? (float8)(t_max) : tf;",
+                                "tf = tf < t_max ? tf : (float8)(t_max);");
+    ASSERT_TRUE(kernels.found_once);
+    EXPECT_NE(oclgrind("", kernels.folder, "C25").find("Invalid read"), std::string::npos);
+}
+
 TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {
     if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
     EXPECT_EQ(oclgrind("--data-races", fs::path(TRIAD_SOURCE_DIR) / "kernels", "R1"), "");

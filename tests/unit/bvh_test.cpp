@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include "base/parallel_for.h"
 #include "bvh/collapse.h"
+#include "check/any_bits.h"
 #include "scene/shapes.h"
 
 using namespace triad;
@@ -208,6 +210,43 @@ TEST(Bvh, drops_triangles_without_area) {
                                              {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, 1},
                                              {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, 2}};
     expect_each_once(contents_of(triangles), 1);
+}
+
+TEST(Bvh, areas_that_overflow_give_no_node_more_than_eight_children) {
+    // The collapse once wrote past its eight children where no area was less than another.
+    for (const float far : {1e18f, 5e19f, 1e36f}) {
+        std::vector<BvhTriangle> triangles;
+        for (int i = 0; i < 300; ++i) {
+            const float x = far * float(i % 7 - 3), y = far * float(i % 11 - 5), z = float(i);
+            triangles.push_back({{{x, y, z}, {x, 9 * far, z}, {-9 * far, y, z}}, std::uint32_t(i)});
+        }
+        expect_each_once(contents_of(triangles), triangles.size());
+    }
+}
+
+TEST(Bvh, leaves_out_what_float_cannot_hold_and_keeps_the_rest) {
+    any_bits::Words words(3);
+    std::vector<BvhTriangle> triangles;
+    std::vector<BvhInstance> instances;
+    std::set<std::uint32_t> ordinary;
+    for (std::uint32_t i = 0; i < 20000; ++i) {
+        BvhTriangle t{{{float(i % 100), float(i % 37), 0}, {float(i % 100), 1, 2}, {3, 0.1f, float(i)}}, i};
+        if (i % 3 == 0)
+            ordinary.insert(i);
+        else
+            t.corner[words.bits() % 3][int(words.bits() % 3)] = words.number();
+        triangles.push_back(t);
+        const double x = words.number(), y = words.number();
+        instances.push_back({{dvec3(x < y ? x : y, 0, 0), dvec3(x < y ? y : x, 1, 1)}, i + 1});
+    }
+    instances.push_back({{dvec3(0, 0, 0), dvec3(1, 1, 1)}, 1u << 20});
+    BvhPool pool;
+    const Contents contents = contents_of(pool, build_bvh(triangles, instances, INFINITY, pool));
+    for (const std::uint32_t i : ordinary) EXPECT_EQ(contents.primitives.count(i), 1u) << i;
+    EXPECT_LT(contents.primitives.size(), triangles.size());
+    EXPECT_GT(contents.primitives.size(), ordinary.size());
+    EXPECT_EQ(contents.instances.count(1u << 20), 1u);
+    EXPECT_LT(contents.instances.size(), instances.size());
 }
 
 TEST(Bvh, mixes_triangles_and_instances_and_keeps_them_apart_in_leaves) {

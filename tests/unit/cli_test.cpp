@@ -56,6 +56,19 @@ TEST(CommandLine, bad_values_are_named) {
     expect("render --camera no-such-camera", 1, "no-such-camera");
 }
 
+TEST(CommandLine, numbers_that_float_cannot_work_with_are_named) {
+    expect("render --look-at 1e300,0,0,0,0,0", 1, "--look-at 1e300,0,0,0,0,0");
+    expect("render --look-at 0,0,0,0,-2e12,0", 1, "up to 1e+12");
+    expect("render --aperture 1e300", 1, "--aperture: expected a number from 0 to 1e+12");
+    expect("render --aperture 1e12 --focus 1e-12", 1, "--aperture");
+    expect("render --focus 1e300", 1, "--focus");
+    expect("render --env-strength 1e39", 1, "--env-strength");
+    for (const std::string option : {"aperture", "focus", "fov", "roulette", "env-strength", "exposure",
+                                     "time", "error", "photon-radius", "distance", "ppd"})
+        expect("render --" + option + " nan", 1, "--" + option);
+    expect("compare a.exr b.exr --max-rmse nan", 1, "--max-rmse");
+}
+
 TEST(CommandLine, missing_files_are_scene_errors) {
     expect("render /no/such/file.glb", 2, "/no/such/file.glb");
     expect("info /no/such/file.glb", 2, "/no/such/file.glb");

@@ -1,6 +1,7 @@
 // Indices of refraction: the catalogue against its makers' numbers, and what files and command lines may say.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/files.h"

@@ -1,5 +1,6 @@
 // The walls of docs/architecture.md: includes go down only, and packages stay behind the folder that owns
 // them.
+#include <vector>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
 
 namespace fs = std::filesystem;
 

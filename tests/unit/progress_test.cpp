@@ -1,4 +1,6 @@
 // The texts of the progress display.
+#include <algorithm>
+
 #include "base/progress.h"
 
 #include <gtest/gtest.h>

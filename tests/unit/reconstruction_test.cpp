@@ -1,6 +1,7 @@
 // The methods of reconstruction: what each is made of, and what is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 

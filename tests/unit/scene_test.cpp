@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "scene/limits.h"
 #include "scene/scene.h"
 
 namespace triad {
@@ -35,7 +36,9 @@ const std::vector<std::function<void(Scene&)>> faults{
     [](Scene& s) { s.materials[0].emission.y = -1; },
     [](Scene& s) { s.materials[0].ior = 0.5f; },
     [](Scene& s) { s.materials[0].attenuation_distance = 0; },
-    [](Scene& s) { s.materials[0].dispersion = Dispersion{Dispersion::Law::cauchy, 0, {0.9, 0.01}, {}}; },
+    [](Scene& s) {
+        s.materials[0].dispersion = Dispersion{Dispersion::Law::cauchy, 0, {0.9, 0.01}, {}};
+    },
     [](Scene& s) { s.materials[0].priority = 256; },
     [](Scene& s) { s.materials[0].base_colour_texture->texture = 9; },
     [](Scene& s) { s.materials[0].base_colour_texture->uv_set = 2; },
@@ -67,6 +70,54 @@ TEST(Scene, every_broken_invariant_is_found) {
         faults[i](scene);
         EXPECT_THROW(validate(scene), Error) << "fault " << i;
     }
+}
+
+/// What float cannot work with, and what the sentence must name.
+struct Beyond {
+    std::function<void(Scene&)> enlarge;
+    const char* where;
+};
+const std::vector<Beyond> beyond{
+    {[](Scene& s) { s.meshes[0].primitives[0].positions[1].x = 5e19f; }, "Mesh 0 'mesh', primitive 0"},
+    {[](Scene& s) { s.instances[0].to_world[3].y = -2e11; }, "The scene, placed,"},
+    {[](Scene& s) { s.instances[0].to_world[0].x = 1e12; }, "The scene, placed,"},
+    {[](Scene& s) { s.instances[0].to_world[0].x = 1e19; }, "Instance 0 'instance'"},
+    {[](Scene& s) { s.lights[0].position.z = 1e300; }, "Light 0"},
+    {[](Scene& s) { s.lights[0].colour.y = 1e31f; }, "Light 0"},
+    {[](Scene& s) { s.cameras[0].to_world[3].x = 1e300; }, "Camera 0"},
+    {[](Scene& s) { s.cameras[0].magnification.x = 1e39; }, "Camera 0"},
+    {[](Scene& s) { s.cameras[0].aspect = 1e300; }, "Camera 0"},
+    {[](Scene& s) { s.materials[0].emission.x = 1e38f; }, "Material 0"},
+    {[](Scene& s) { s.materials[0].normal_scale = 1e20f; }, "Material 0"},
+    {[](Scene& s) { s.materials[0].attenuation_distance = 1e-30f; }, "Material 0"},
+    {[](Scene& s) {
+         s.environment = EnvironmentMap{1, 1, {1, 1e38f, 1}};
+     },
+     "The environment map"},
+    {[](Scene& s) { s.sky.x = 1e38f; }, "The sky"},
+};
+
+TEST(Scene, numbers_that_float_cannot_work_with_are_refused) {
+    for (std::size_t i = 0; i < beyond.size(); ++i) {
+        Scene scene = small_scene();
+        beyond[i].enlarge(scene);
+        try {
+            validate(scene);
+            ADD_FAILURE() << "number " << i;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit(), Exit::scene) << "number " << i;
+            EXPECT_EQ(std::string(error.what()).rfind(beyond[i].where, 0), 0u) << error.what();
+        }
+    }
+}
+
+TEST(Scene, numbers_at_the_limits_are_taken) {
+    Scene scene = small_scene();
+    for (vec3& p : scene.meshes[0].primitives[0].positions) p *= 0.99e11f;
+    scene.lights[0].position.x = scene.cameras[0].to_world[3].y = -limits::coordinate;
+    scene.cameras[0].magnification = dvec2(limits::coordinate);
+    scene.lights[0].colour = scene.materials[0].emission = vec3(0.99e30f);
+    EXPECT_EQ(validate(scene), 0u);
 }
 
 TEST(Scene, what_cannot_be_drawn_is_dropped_down_to_the_instance) {
