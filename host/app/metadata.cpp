@@ -39,7 +39,7 @@ Metadata metadata_of(const Film& film) {
                          {"triad:not_finite", std::to_string(film.counters[COUNTER_NOT_FINITE])},
                          {"triad:saturated", std::to_string(film.counters[COUNTER_SATURATED])},
                          {"triad:truncated", std::to_string(film.counters[COUNTER_TRUNCATED])},
-                         {"triad:cut_energy", number(double(film.counters[COUNTER_CUT_ENERGY]) / 65536)},
+                         {"triad:cut_energy", number(double(film.counters[COUNTER_CUT_ENERGY]) / CUT_ENERGY_ONE)},
                          {"samplesPerPixel", std::to_string(std::llround(numbers.mean))},
                          {"Software", "triad " TRIAD_VERSION}};
     const double relmse = estimated_relmse(film);

@@ -204,7 +204,7 @@ Exit run(RenderOptions o) {
             {"not_finite", n[COUNTER_NOT_FINITE]},
             {"saturated", n[COUNTER_SATURATED]},
             {"truncated", n[COUNTER_TRUNCATED]},
-            {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / 65536}};
+            {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / CUT_ENERGY_ONE}};
         write_report(o.json_path, "render", &device.info(), Json::array({row}));
     }
     std::string names;

@@ -6,7 +6,7 @@
 namespace triad {
 namespace {
 
-constexpr std::size_t chunk = 256;  ///< MAP_CHUNK of kernels/photon/map.cl
+constexpr std::size_t chunk = MAP_CHUNK;
 /// Of the radius: how much wider cells are than the sphere that is searched, so that it never meets three.
 constexpr double cell_margin = 1.05;
 /// Items of a launch: watchdogs want few, and so does PoCL (largest_launch of renderer_state.h).
