@@ -14,6 +14,7 @@
 #include <cstdint>
 namespace triad::dev { /* triad::Material is the scene's, triad::dev::Material the kernels' */
 using uint = std::uint32_t;
+using ushort = std::uint16_t;
 #define TRIAD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " has " #bytes " bytes")
 #endif
 

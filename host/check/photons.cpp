@@ -5,8 +5,8 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
-#include "render/features.h"
-#include "render/photon_map.h"
+#include "pack/features.h"
+#include "trace/photon_map.h"
 
 namespace triad {
 namespace {
@@ -116,15 +116,15 @@ std::vector<dev::Photon> landed_in(Device& device, Scene scene, std::uint64_t ph
     const PackedScene packed = pack(scene, settings);
     const dev::Frame frame = frame_of(packed, settings);
     PhotonMap map(device, photons);
-    const DeviceScene on_device = upload(device, packed, settings, map.buffers());
-    const Kernel trace = device.build("path/photons.cl", options_of(features_of(scene, settings, packed)))
-                             .kernel("trace_photons");
+    const Arguments on_device = scene_arguments(device, packed, settings, map.buffers());
+    const Kernel trace =
+        device.build("path/photons.cl", options_of(features_of(packed, settings))).kernel("trace_photons");
     const Buffer counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
     device.fill_zero(counters);
     device.run(
         trace,
         Arguments()
-            .add(on_device.arguments)
+            .add(on_device)
             .add(Buffer{})
             .add(Buffer{})
             .add(counters)

@@ -23,6 +23,10 @@ struct ProgramState;
 struct KernelState;
 }  // namespace opencl
 
+/// Work-items of a launch at most, where work can be cut: watchdogs want short launches, and PoCL compiles a
+/// kernel a second time for grids beyond 65,535 items. A multiple of the largest work-group.
+constexpr std::size_t largest_launch_items = 65472;
+
 /// What `triad devices` shows. Zero is a legal answer for every number.
 struct DeviceInfo {
     std::size_t index = 0;  ///< over all platforms; stable while nothing is plugged in or out
@@ -31,6 +35,7 @@ struct DeviceInfo {
     std::uint64_t memory = 0, max_allocation = 0, local_memory = 0;
     unsigned compute_units = 0, clock_mhz = 0;
     std::size_t max_work_group = 0;
+    bool host_memory = false;  ///< works in the memory of the host
     bool fp64 = false, images = false, correctly_rounded = false, denormals = false, int64_atomics = false;
     bool usable = false;
     bool preferred = false;             ///< what Triad chooses without --device
@@ -176,9 +181,15 @@ class Device {
     Buffer upload(std::span<const T> values) {
         return values.empty() ? Buffer{} : allocate(values.size_bytes(), values.data());
     }
-    template <class T>
-    Buffer upload(const std::vector<T>& values) {
+    template <class T, class Allocator>
+    Buffer upload(const std::vector<T, Allocator>& values) {
         return upload(std::span<const T>(values));
+    }
+    /// Values that kernels only read and that `owner` keeps: used where they are by a device that works in
+    /// the host's memory, else copied. AlignedVector suits every driver.
+    template <class T>
+    Buffer share(std::span<const T> values, std::shared_ptr<const void> owner) {
+        return values.empty() ? Buffer{} : share(values.size_bytes(), values.data(), std::move(owner));
     }
     void write(const Buffer& buffer, const void* data, std::size_t bytes, std::size_t offset = 0);
     void read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);
@@ -210,6 +221,8 @@ class Device {
     std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
 
   private:
+    Buffer share(std::size_t bytes, const void* data, std::shared_ptr<const void> owner);
+    Buffer hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner);
     explicit Device(std::shared_ptr<opencl::DeviceState> state) : state_(std::move(state)) {}
     std::shared_ptr<opencl::DeviceState> state_;
 };

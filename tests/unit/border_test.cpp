@@ -5,7 +5,7 @@
 
 #include "device/device.h"
 #include "kernels/types.h"
-#include "render/features.h"
+#include "pack/features.h"
 #include "scene/film.h"
 
 using namespace triad;
