@@ -11,7 +11,7 @@
 namespace triad {
 namespace {
 
-constexpr unsigned tile_edge = 16;
+constexpr unsigned tile_edge = TileMeans::edge;
 constexpr double rounding = 1e-6;  // standard error of a mean from rounding, relative to it
 
 unsigned tiles_along(unsigned pixels) { return (pixels + tile_edge - 1) / tile_edge; }
