@@ -3,10 +3,9 @@
 
 #include <regex>
 
-#include "device/device.h"
-#include "kernels/types.h"
 #include "pack/features.h"
 #include "scene/film.h"
+#include "trace/kernel_arguments.h"
 
 using namespace triad;
 
@@ -30,3 +29,9 @@ TEST(Border, each_option_has_a_member_of_its_own) {
 }
 
 TEST(Border, films_have_room_for_every_counter) { EXPECT_EQ(Film().counters.size(), std::size_t(COUNTERS)); }
+
+TEST(Border, swapped_arrays_of_kernels_do_not_compile) {
+    static_assert(std::is_same_v<decltype(dev::SceneArguments::lights), DeviceArray<dev::Light>>);
+    static_assert(!std::is_convertible_v<DeviceArray<float>, DeviceArray<std::uint32_t>>);
+    static_assert(!std::is_convertible_v<Buffer, DeviceArray<float>>, "says what a buffer holds by itself");
+}
