@@ -92,6 +92,15 @@ class Buffer {
     std::size_t bytes_ = 0;
 };
 
+/// A buffer of values of one type.
+template <class T>
+class DeviceArray : public Buffer {
+  public:
+    DeviceArray() = default;
+    /// Says what the buffer's bytes are.
+    explicit DeviceArray(Buffer buffer) : Buffer(std::move(buffer)) {}
+};
+
 /// The arguments of a kernel in order; a Buffer that was never allocated is passed as a null pointer.
 class Arguments {
   public:
@@ -178,18 +187,23 @@ class Device {
     /// much there is.
     Buffer allocate(std::size_t bytes, const void* data = nullptr);
     template <class T>
-    Buffer upload(std::span<const T> values) {
-        return values.empty() ? Buffer{} : allocate(values.size_bytes(), values.data());
+    DeviceArray<T> allocate_array(std::size_t size) {
+        return DeviceArray<T>(allocate(size * sizeof(T)));
+    }
+    template <class T>
+    DeviceArray<T> upload(std::span<const T> values) {
+        return DeviceArray<T>(values.empty() ? Buffer{} : allocate(values.size_bytes(), values.data()));
     }
     template <class T, class Allocator>
-    Buffer upload(const std::vector<T, Allocator>& values) {
+    DeviceArray<T> upload(const std::vector<T, Allocator>& values) {
         return upload(std::span<const T>(values));
     }
     /// Values that kernels only read and that `owner` keeps: used where they are by a device that works in
     /// the host's memory, else copied. AlignedVector suits every driver.
     template <class T>
-    Buffer share(std::span<const T> values, std::shared_ptr<const void> owner) {
-        return values.empty() ? Buffer{} : share(values.size_bytes(), values.data(), std::move(owner));
+    DeviceArray<T> share(std::span<const T> values, std::shared_ptr<const void> owner) {
+        return DeviceArray<T>(values.empty() ? Buffer{}
+                                             : share(values.size_bytes(), values.data(), std::move(owner)));
     }
     void write(const Buffer& buffer, const void* data, std::size_t bytes, std::size_t offset = 0);
     void read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);

@@ -34,7 +34,7 @@ void DisplayPipeline::map_rows(const Rows& rows) {
     const std::size_t items = bins_.stride / shape_.lanes * plan_.columns() * bin_rows;
     const Arguments map = Arguments(source).add(planes_).add(std::uint32_t(items));
     if (source_.halves) {
-        constexpr std::size_t record = 13;  // NOISE_RECORD of subpixel/noise.h
+        constexpr std::size_t record = NOISE_RECORD;
         const std::size_t pixels = from.count() * source_.width;
         reserve(means_, pixels * record * sizeof(float));
         const Arguments means = Arguments(source).add(means_).add(std::uint32_t(from.count()));

@@ -8,9 +8,6 @@
 namespace triad {
 namespace {
 
-/// Roughness whose square is BSDF_SMOOTH_ALPHA of kernels/shading/bsdf.h, and the distance from 1 of an index
-/// whose body is taken as smooth.
-constexpr double smooth_alpha = 1e-3, same_index = 1e-2;
 /// Largest radius of a light over its distance to a caster that paths find too seldom to go without photons.
 constexpr double small_light = 0.2;
 /// The same for a light that sends the casters more than this share of all directions: a lamp in a closed
@@ -34,9 +31,9 @@ double least_of(const Scene& scene, const std::optional<TextureUse>& use, unsign
 /// Whether light can leave the material by a delta event.
 bool casts(const Scene& scene, const Material& m) {
     if (m.unlit || (m.metallic == 0 && m.specular == 0 && m.transmission == 0)) return false;
-    if (m.transmission > 0 && m.thickness > 0 && std::abs(m.ior - 1.0) < same_index) return true;
+    if (m.transmission > 0 && m.thickness > 0 && std::abs(m.ior - 1.0) < double(BSDF_SAME_INDEX)) return true;
     const double roughness = m.roughness * least_of(scene, m.metallic_roughness_texture, 1);
-    return roughness * roughness < smooth_alpha;
+    return roughness * roughness < double(BSDF_SMOOTH_ALPHA);
 }
 
 /// Whether it throws most of what it gets: a varnish alone is no reason for photons.

@@ -11,7 +11,7 @@ namespace {
 void check(const RenderSettings& s) {
     auto refuse = [](const std::string& what) { throw Error(Exit::usage, what); };
     if (s.width == 0 || s.height == 0) refuse("The picture has no pixels: --size needs two numbers above 0.");
-    if (s.bins_x == 0 || s.bins_y == 0 || s.bins_x > 16 || s.bins_y > 16)
+    if (s.bins_x == 0 || s.bins_y == 0 || s.bins_x > FILM_MOST_BINS || s.bins_y > FILM_MOST_BINS)
         refuse("--bins needs two numbers from 1 to 16.");
     const auto& c = s.crop;
     if (c[2] && (c[3] == 0 || std::uint64_t(c[0]) + c[2] > s.width || std::uint64_t(c[1]) + c[3] > s.height))

@@ -55,7 +55,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"not_finite", n[COUNTER_NOT_FINITE]},
         {"saturated", n[COUNTER_SATURATED]},
         {"truncated", n[COUNTER_TRUNCATED]},
-        {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / 65536}};
+        {"cut_energy", double(n[COUNTER_CUT_ENERGY]) / CUT_ENERGY_ONE}};
 }
 
 std::string render_sentence(RenderSession& session, const RenderOutcome& outcome) {

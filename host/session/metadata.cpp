@@ -30,21 +30,22 @@ Metadata metadata_of(const Film& film) {
     std::string devices;
     for (const std::string& device : film.devices) devices += (devices.empty() ? "" : "; ") + device;
     const SampleNumbers numbers = film.sample_numbers();
-    Metadata metadata = {{"triad:version", TRIAD_VERSION},
-                         {"triad:spp", numbers.least == numbers.most ? std::to_string(numbers.least)
-                                                                     : Json(numbers.mean).dump()},
-                         {"triad:samples", std::to_string(numbers.total)},
-                         {"triad:scene", film.scene},
-                         {"triad:settings", film.settings},
-                         {"triad:settings_text", film.settings_text},
-                         {"triad:device", devices},
-                         {"triad:rays", std::to_string(film.counters[COUNTER_RAYS])},
-                         {"triad:not_finite", std::to_string(film.counters[COUNTER_NOT_FINITE])},
-                         {"triad:saturated", std::to_string(film.counters[COUNTER_SATURATED])},
-                         {"triad:truncated", std::to_string(film.counters[COUNTER_TRUNCATED])},
-                         {"triad:cut_energy", number(double(film.counters[COUNTER_CUT_ENERGY]) / 65536)},
-                         {"samplesPerPixel", std::to_string(std::llround(numbers.mean))},
-                         {"Software", "triad " TRIAD_VERSION}};
+    Metadata metadata = {
+        {"triad:version", TRIAD_VERSION},
+        {"triad:spp",
+         numbers.least == numbers.most ? std::to_string(numbers.least) : Json(numbers.mean).dump()},
+        {"triad:samples", std::to_string(numbers.total)},
+        {"triad:scene", film.scene},
+        {"triad:settings", film.settings},
+        {"triad:settings_text", film.settings_text},
+        {"triad:device", devices},
+        {"triad:rays", std::to_string(film.counters[COUNTER_RAYS])},
+        {"triad:not_finite", std::to_string(film.counters[COUNTER_NOT_FINITE])},
+        {"triad:saturated", std::to_string(film.counters[COUNTER_SATURATED])},
+        {"triad:truncated", std::to_string(film.counters[COUNTER_TRUNCATED])},
+        {"triad:cut_energy", number(double(film.counters[COUNTER_CUT_ENERGY]) / CUT_ENERGY_ONE)},
+        {"samplesPerPixel", std::to_string(std::llround(numbers.mean))},
+        {"Software", "triad " TRIAD_VERSION}};
     const double relmse = estimated_relmse(film);
     if (relmse >= 0) metadata["triad:relmse"] = number(relmse);  // both halves have samples
     if (numbers.least != numbers.most) {

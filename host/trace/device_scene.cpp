@@ -20,50 +20,52 @@ const std::vector<float>& srgb_table() {
 
 DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> packed)
     : device_(device), packed_(std::move(packed)) {
-    const auto add = [&](const Buffer& buffer) {
-        bytes_ += buffer.bytes();
-        arrays_.add(buffer);
+    const auto add = [&]<class T>(DeviceArray<T>& to, DeviceArray<T> array) {
+        bytes_ += array.bytes();
+        to = std::move(array);
     };
-    const auto copy = [&](const auto& values) { add(device.upload(values)); };
-    const auto share = [&]<class T>(const AlignedVector<T>& values) {
-        add(device.share(std::span<const T>(values), packed_));
+    const auto copy = [&]<class T>(DeviceArray<T>& to, const std::vector<T>& values) {
+        add(to, device.upload(values));
+    };
+    const auto share = [&]<class T>(DeviceArray<T>& to, const AlignedVector<T>& values) {
+        add(to, device.share(std::span<const T>(values), packed_));
     };
     const PackedSurfaces& surfaces = *packed_->surfaces;
-    // The order of SCENE_PARAMETERS in kernels/shading/scene.h, between the frame and the filter.
-    share(packed_->bvh.nodes);
-    share(packed_->bvh.blocks);
-    copy(packed_->instance_table);
-    share(packed_->triangles);
-    share(packed_->geometries);
-    share(packed_->normals);
-    share(packed_->tangents);
-    share(packed_->uvs);
-    share(packed_->colours);
-    copy(surfaces.materials);
-    copy(surfaces.texture_uses);
-    copy(surfaces.textures);
-    share(surfaces.texels);
-    copy(srgb_table());
-    copy(albedo_tables());
-    copy(packed_->lights);
-    copy(packed_->light_cdf);
-    share(surfaces.env_texels);
-    share(surfaces.env_rows);
-    share(surfaces.env_columns);
-    copy(surfaces.env_cosines);
-    copy(packed_->spectrum);
-    copy(surfaces.indices);
+    dev::SceneArguments& a = arrays_;
+    share(a.nodes, packed_->bvh.nodes);
+    share(a.blocks, packed_->bvh.blocks);
+    copy(a.instances, packed_->instance_table);
+    share(a.triangles, packed_->triangles);
+    share(a.geometries, packed_->geometries);
+    share(a.normals, packed_->normals);
+    share(a.tangents, packed_->tangents);
+    share(a.uvs, packed_->uvs);
+    share(a.colours, packed_->colours);
+    copy(a.materials, surfaces.materials);
+    copy(a.texture_uses, surfaces.texture_uses);
+    copy(a.textures, surfaces.textures);
+    share(a.texels, surfaces.texels);
+    copy(a.srgb, srgb_table());
+    add(a.albedo, device.upload(albedo_tables()));
+    copy(a.lights, packed_->lights);
+    copy(a.light_cdf, packed_->light_cdf);
+    share(a.env_texels, surfaces.env_texels);
+    share(a.env_rows, surfaces.env_rows);
+    share(a.env_columns, surfaces.env_columns);
+    copy(a.env_cosines, surfaces.env_cosines);
+    copy(a.spectrum, packed_->spectrum);
+    copy(a.indices, surfaces.indices);
 }
 
-Arguments DeviceScene::arguments(const Buffer& frame, const Buffer& ray_filter,
+Arguments DeviceScene::arguments(const DeviceArray<dev::Frame>& frame, const DeviceArray<float>& ray_filter,
                                  const PhotonMapBuffers& photon_map) const {
-    return Arguments()
-        .add(frame)
-        .add(arrays_)
-        .add(ray_filter)
-        .add(photon_map.map)
-        .add(photon_map.photons)
-        .add(photon_map.ends);
+    dev::SceneArguments a = arrays_;
+    a.frame = frame;
+    a.ray_filter = ray_filter;
+    a.photon_map = photon_map.map;
+    a.photons = photon_map.photons;
+    a.photon_ends = photon_map.ends;
+    return arguments_of(a);
 }
 
 Arguments scene_arguments(Device& device, const PackedScene& packed, const RenderSettings& settings,

@@ -4,12 +4,15 @@
 
 #include "device/device.h"
 #include "pack/pack.h"
+#include "trace/kernel_arguments.h"
 
 namespace triad {
 
 /// A photon map on the device; empty where nothing is gathered.
 struct PhotonMapBuffers {
-    Buffer map, photons, ends;
+    DeviceArray<dev::PhotonMap> map;
+    DeviceArray<dev::Photon> photons;
+    DeviceArray<std::uint32_t> ends;
 };
 
 /// The arrays of a packed scene on a device, for any number of pictures. A device that works in the host's
@@ -24,19 +27,18 @@ class DeviceScene {
     const std::shared_ptr<const PackedScene>& shared() const { return packed_; }
     std::uint64_t bytes() const { return bytes_; }
 
-    /// The arguments of SCENE_PARAMETERS (kernels/shading/scene.h), in their order. frame: one dev::Frame;
-    /// ray_filter: ray_filter_tables().
-    Arguments arguments(const Buffer& frame, const Buffer& ray_filter,
+    /// What kernels that shade begin with. frame: one; ray_filter: ray_filter_tables().
+    Arguments arguments(const DeviceArray<dev::Frame>& frame, const DeviceArray<float>& ray_filter,
                         const PhotonMapBuffers& photon_map = {}) const;
 
   private:
     Device& device_;
     std::shared_ptr<const PackedScene> packed_;
-    Arguments arrays_;
+    dev::SceneArguments arrays_;  ///< but for what a picture adds
     std::uint64_t bytes_ = 0;
 };
 
-/// The arguments of SCENE_PARAMETERS for one picture of a packed scene, everything copied: for kernels that
+/// The arguments of a scene for one picture of a packed scene, everything copied: for kernels that
 /// are run once.
 Arguments scene_arguments(Device& device, const PackedScene& packed, const RenderSettings& settings,
                           const PhotonMapBuffers& photon_map = {});

@@ -32,12 +32,12 @@ FilmPart::FilmPart(Device& device, const Film& shape) : device_(device), bins_(s
         band.pixels =
             shape.width * std::min<std::size_t>((row + fit) * FILM_TILE, shape.height) - band.first_pixel;
         band.end_tile = std::min(row + fit, rows) * across;
-        band.sums = device.allocate(band.pixels * pixel_bytes);
-        band.half_sums = device.allocate(band.pixels * 3 * sizeof(std::int64_t));
+        band.sums = device.allocate_array<std::int64_t>(band.pixels * bins_ * FILM_CHANNELS);
+        band.half_sums = device.allocate_array<std::int64_t>(band.pixels * 3);
         bands_.push_back(band);
     }
-    samples_ = device.allocate(shape.pixels() * sizeof(std::uint32_t));
-    counters_ = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
+    samples_ = device.allocate_array<std::uint32_t>(shape.pixels());
+    counters_ = device.allocate_array<std::uint32_t>(2 * COUNTERS);
 }
 
 void FilmPart::clear() {

@@ -11,7 +11,7 @@ class FilmPart {
   public:
     /// Rows of tiles, from the top, so that no piece is larger than the device allows.
     struct Band {
-        Buffer sums, half_sums;
+        DeviceArray<std::int64_t> sums, half_sums;
         std::size_t first_pixel = 0, pixels = 0;
         std::size_t end_tile = 0;  ///< the first beyond it
     };
@@ -27,15 +27,15 @@ class FilmPart {
 
     const std::vector<Band>& bands() const { return bands_; }
     const Band& band_of_tile(std::size_t tile) const;
-    const Buffer& samples() const { return samples_; }    ///< uint32 per pixel
-    const Buffer& counters() const { return counters_; }  ///< COUNTER_*, as pairs
+    const DeviceArray<std::uint32_t>& samples() const { return samples_; }    ///< of each pixel
+    const DeviceArray<std::uint32_t>& counters() const { return counters_; }  ///< COUNTER_*, as pairs
     std::uint64_t bytes() const;
 
   private:
     Device& device_;
     std::size_t bins_ = 1;
     std::vector<Band> bands_;
-    Buffer samples_, counters_;
+    DeviceArray<std::uint32_t> samples_, counters_;
 };
 
 }  // namespace triad

@@ -6,7 +6,7 @@
 namespace triad {
 namespace {
 
-constexpr std::size_t chunk = 256;  ///< MAP_CHUNK of kernels/photon/map.cl
+constexpr std::size_t chunk = MAP_CHUNK;
 /// Of the radius: how much wider cells are than the sphere that is searched, so that it never meets three.
 constexpr double cell_margin = 1.05;
 
@@ -25,9 +25,10 @@ PhotonMap::PhotonMap(Device& device, std::uint64_t photons)
                                       info.name + " has " + mebibytes(info.memory) + ", at most " +
                                       mebibytes(info.max_allocation) +
                                       " in one piece. Ask for fewer --photons, and for more samples.");
-    landed_ = device.allocate(records);
-    buffers_ = {device.allocate(sizeof(dev::PhotonMap)), device.allocate(records), device.allocate(index)};
-    chunk_sums_ = device.allocate(buckets_ / chunk * sizeof(std::uint32_t));
+    landed_ = device.allocate_array<dev::Photon>(photons);
+    buffers_ = {device.allocate_array<dev::PhotonMap>(1), device.allocate_array<dev::Photon>(photons),
+                device.allocate_array<std::uint32_t>(buckets_)};
+    chunk_sums_ = device.allocate_array<std::uint32_t>(buckets_ / chunk);
 }
 
 void PhotonMap::compile(const Options& options) {

@@ -18,14 +18,15 @@ class PhotonMap {
     /// shape: its radii and wavelengths; the rest is filled in.
     void sort(dev::PhotonMap shape, std::uint64_t count);
 
-    const Buffer& landed() const { return landed_; }  ///< dev::Photon, to be written by a kernel
+    const DeviceArray<dev::Photon>& landed() const { return landed_; }  ///< to be written by a kernel
     const PhotonMapBuffers& buffers() const { return buffers_; }
     std::uint64_t bytes() const;
 
   private:
     Device* device_ = nullptr;
     std::size_t buckets_ = 0;
-    Buffer landed_, chunk_sums_;
+    DeviceArray<dev::Photon> landed_;
+    DeviceArray<std::uint32_t> chunk_sums_;
     PhotonMapBuffers buffers_;
     Kernel count_, sum_chunks_, scan_chunks_, scan_buckets_, sort_;
 };

@@ -32,7 +32,7 @@ PhotonTracer::PhotonTracer(const DeviceScene& scene, const RenderSettings& setti
 void PhotonTracer::compile(const Options& options, const Arguments& arguments, const FilmPart& part) {
     if (count_ == 0) return;
     arguments_ = arguments;
-    trace_photons_ = device_.build("photon/photon.cl", options).kernel("trace_photons");
+    trace_photons_ = device_.build("path/photons.cl", options).kernel("trace_photons");
     if (map_) map_.compile(options);
     trace(0, std::min<std::uint64_t>(count_, 64), part);
     device_.finish();
@@ -46,25 +46,22 @@ void PhotonTracer::trace(std::uint64_t sample, std::uint64_t count, const FilmPa
     for (const FilmPart::Band& band : part.bands()) {  // several are rare: photons are traced for each
         for (std::uint64_t first = 0; first < count; first += largest_launch_items) {
             const std::size_t now = std::min<std::uint64_t>(count - first, largest_launch_items);
-            device_.run(trace_photons_,
-                        Arguments()
-                            .add(arguments_)
-                            .add(band.sums)
-                            .add(band.half_sums)
-                            .add(part.counters())
-                            .add(shared_)
-                            .add(lights_)
-                            .add(casters_)
-                            .add(std::uint32_t(sample))
-                            .add(std::uint32_t(sample >> 32))
-                            .add(std::uint32_t(first))
-                            .add(std::uint32_t(now))
-                            .add(1.0f / float(count))
-                            .add(map_.landed())
-                            .add(tiles_)
-                            .add(std::uint32_t(band.first_pixel))
-                            .add(std::uint32_t(band.pixels)),
-                        now);
+            const dev::TracePhotonsArguments own{.sums = DeviceArray<std::uint32_t>(band.sums),
+                                                 .half_sums = DeviceArray<std::uint32_t>(band.half_sums),
+                                                 .counters = part.counters(),
+                                                 .photon_frame = shared_,
+                                                 .photon_lights = lights_,
+                                                 .casters = casters_,
+                                                 .sample_low = std::uint32_t(sample),
+                                                 .sample_high = std::uint32_t(sample >> 32),
+                                                 .first_photon = std::uint32_t(first),
+                                                 .photon_count = std::uint32_t(now),
+                                                 .share = 1.0f / float(count),
+                                                 .landed = map_.landed(),
+                                                 .tiles = tiles_,
+                                                 .first_pixel = std::uint32_t(band.first_pixel),
+                                                 .pixels = std::uint32_t(band.pixels)};
+            device_.run(trace_photons_, Arguments(arguments_).add(arguments_of(own)), now);
         }
         if (is_classic()) break;  // nothing of it goes to the film
     }

@@ -42,7 +42,9 @@ class PhotonTracer {
     dev::Frame frame_;
     std::uint64_t count_ = 0;
     bool has_classic_map_ = false;
-    Buffer shared_, lights_, casters_, tiles_;
+    DeviceArray<dev::PhotonFrame> shared_;
+    DeviceArray<std::uint32_t> lights_, tiles_;
+    DeviceArray<dev::Caster> casters_;
     PhotonMap map_;  ///< none: nothing is gathered
     Arguments arguments_;
     Kernel trace_photons_;

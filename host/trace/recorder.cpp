@@ -32,24 +32,21 @@ void record_paths(Tracer& tracer, unsigned x, unsigned y, SampleRange range,
     Device& device = tracer.device();
     const Kernel kernel = device.build(program_of(tracer.settings(), "record"), options_of(tracer.features()))
                               .kernel("record_paths");
-    const Buffer records = device.allocate(batch * sizeof(dev::PathRecord));
-    const Buffer paths = device.allocate(batch * PATH_VERTICES * sizeof(dev::PathVertex));
+    dev::RecordPathsArguments own{.records = device.allocate_array<dev::PathRecord>(batch),
+                                  .vertices = device.allocate_array<dev::PathVertex>(batch * PATH_VERTICES),
+                                  .x = x,
+                                  .y = y,
+                                  .first_sample_low = 0,
+                                  .first_sample_high = 0,
+                                  .sample_count = 0};
     for (std::uint64_t first = range.begin; first < range.end; first += batch) {
         const auto count = static_cast<std::uint32_t>(std::min(batch, range.end - first));
-        device.run(kernel,
-                   Arguments()
-                       .add(tracer.arguments())
-                       .add(records)
-                       .add(paths)
-                       .add(std::uint32_t(x))
-                       .add(std::uint32_t(y))
-                       .add(std::uint32_t(first))
-                       .add(std::uint32_t(first >> 32))
-                       .add(count),
-                   count);
+        own.first_sample_low = std::uint32_t(first), own.first_sample_high = std::uint32_t(first >> 32);
+        own.sample_count = count;
+        device.run(kernel, Arguments(tracer.arguments()).add(arguments_of(own)), count);
         device.finish();
-        const auto headers = device.download<dev::PathRecord>(records);
-        const auto vertices = device.download<dev::PathVertex>(paths);
+        const auto headers = device.download<dev::PathRecord>(own.records);
+        const auto vertices = device.download<dev::PathVertex>(own.vertices);
         for (std::uint32_t i = 0; i < count; ++i) {
             const dev::PathRecord& r = headers[i];
             RecordedPath path{first + i, r.bin, r.half_index, r.vertices, r.rays, {}, {}};

@@ -8,7 +8,7 @@
 namespace triad {
 
 std::string program_of(const RenderSettings& settings, const std::string& what) {
-    return "shading/" + what + (settings.spectral == Spectral::full ? "_full.cl" : ".cl");
+    return "path/" + what + (settings.spectral == Spectral::full ? "_full.cl" : ".cl");
 }
 
 Tracer::Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& settings,
@@ -23,8 +23,8 @@ Tracer::Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& s
       arguments_(scene_->arguments(frame_buffer_, device_.upload(ray_filter_tables(settings)),
                                    photons_.map().buffers())),
       part_(device_, shape),
-      work_(device_.allocate(tile_count(shape.width, shape.height) * sizeof(dev::TileWork))) {
-    trace_paths_ = device_.build(program_of(settings, "path"), options_of(features)).kernel("trace_paths");
+      work_(device_.allocate_array<dev::TileWork>(tile_count(shape.width, shape.height))) {
+    trace_paths_ = device_.build(program_of(settings, "mega"), options_of(features)).kernel("trace_paths");
     part_.clear();
     photons_.compile(options_of(features), arguments_, part_);
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
@@ -53,20 +53,17 @@ void Tracer::trace(std::size_t first, std::size_t count, std::uint64_t first_sam
         const std::size_t n = std::size_t(
             std::find_if_not(tiles_.begin() + long(first), tiles_.begin() + long(first + count), inside) -
             (tiles_.begin() + long(first)));
-        device_.run(trace_paths_,
-                    Arguments()
-                        .add(arguments_)
-                        .add(band.sums)
-                        .add(band.half_sums)
-                        .add(part_.samples())
-                        .add(part_.counters())
-                        .add(work_)
-                        .add(std::uint32_t(first))
-                        .add(std::uint32_t(n))
-                        .add(std::uint32_t(first_sample))
-                        .add(std::uint32_t(first_sample >> 32))
-                        .add(std::uint32_t(band.first_pixel)),
-                    n * FILM_TILE_PIXELS);
+        const dev::TracePathsArguments own{.sums = band.sums,
+                                           .half_sums = band.half_sums,
+                                           .samples = part_.samples(),
+                                           .counters = part_.counters(),
+                                           .work = work_,
+                                           .first_work = std::uint32_t(first),
+                                           .work_count = std::uint32_t(n),
+                                           .first_sample_low = std::uint32_t(first_sample),
+                                           .first_sample_high = std::uint32_t(first_sample >> 32),
+                                           .first_pixel = std::uint32_t(band.first_pixel)};
+        device_.run(trace_paths_, Arguments(arguments_).add(arguments_of(own)), n * FILM_TILE_PIXELS);
         first += n, count -= n;
     }
 }

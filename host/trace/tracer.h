@@ -39,7 +39,7 @@ class Tracer {
     const RenderSettings& settings() const { return settings_; }
     const Features& features() const { return features_; }
     const dev::Frame& frame() const { return frame_; }
-    const Arguments& arguments() const { return arguments_; }  ///< of SCENE_PARAMETERS
+    const Arguments& arguments() const { return arguments_; }  ///< of the scene
     FilmPart& part() { return part_; }
     PhotonTracer& photons() { return photons_; }
     std::uint64_t bytes() const;
@@ -53,11 +53,11 @@ class Tracer {
     RenderSettings settings_;
     Features features_;
     dev::Frame frame_;
-    Buffer frame_buffer_;
+    DeviceArray<dev::Frame> frame_buffer_;
     PhotonTracer photons_;
     Arguments arguments_;
     FilmPart part_;
-    Buffer work_;
+    DeviceArray<dev::TileWork> work_;
     std::vector<dev::TileWork> tiles_;  ///< what work_ holds
     Kernel trace_paths_;
 };

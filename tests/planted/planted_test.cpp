@@ -38,7 +38,7 @@ const Fault faults[] = {
     {"unshuffled_sobol", "common/random.h", "random_owen_reversed((uint4)(s->index_reversed), hash)",
      "(uint4)(s->index_reversed)", "C18d"},
     {"photon_cells_share_buckets", "shading/photon_map.h", "(c.y & 1u) << 1", "(c.y & 1u) << 2", "P1"},
-    {"clamped_roulette", "shading/path.cl", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
+    {"clamped_roulette", "path/survive.h", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
     {"swapped_tangent", "common/frame.h", "(v.x), f->x, fma((float3)(v.y), f->y",
      "(v.x), f->y, fma((float3)(v.y), f->x", "C22"},
     {"wrong_eta_side", "shading/bsdf.h", "in->inside ? 1.0f / in->ior : in->ior",

@@ -1,13 +1,13 @@
 /* The colours of a path: RGB, with one wavelength from some vertex on, or (TRIAD_HERO) four wavelengths. What
  * surfaces and lights say in RGB is turned into them here, and what a path found back into RGB for the film.
  */
-#ifndef TRIAD_SHADING_PATH_COLOUR_H
-#define TRIAD_SHADING_PATH_COLOUR_H
+#ifndef TRIAD_PATH_COLOUR_H
+#define TRIAD_PATH_COLOUR_H
 
 #include "common/colour.h"
 #include "common/random.h"
 #include "common/spectrum.h"
-#include "shading/vertex_bsdf.h"
+#include "shading/vertex.h"
 
 #define PATH_WAVELENGTH_SET 2u /* of random numbers: the samples of a pixel share the spectrum out evenly */
 /* That a path is followed with from its first dispersive surface on. Three have a quarter of the error of one
@@ -45,6 +45,7 @@ TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* s
     return c;
 }
 
+TRIAD_FUNCTION float4 path_wavelengths(const PathColour* c) { return c->wavelengths; }
 TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelengths.x; }
 
 /* Of a reflectance, an absorption, or light that is D65 when white. */
@@ -70,23 +71,6 @@ TRIAD_FUNCTION void path_end_others(PathColour* c, Colour* throughput) {
     const float scale = 4.0f / c->share.x;
     *throughput = (Colour)(throughput->x * scale, 0.0f, 0.0f, 0.0f);
     c->share = (float4)(4.0f, 0.0f, 0.0f, 0.0f);
-}
-
-/* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
-TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, const PathColour* c, const Surface* s,
-                                          float3 wo, float3 ng, int back, Bodies bodies, Bodies beyond,
-                                          float3 wi, float4* densities) {
-    float wavelengths[4], values[4], value[4], density[4];
-    vstore4(c->wavelengths, 0, wavelengths);
-    for (uint i = 0u; i < 4u; ++i) {
-        const VertexBsdf v = vertex_bsdf(scene, s, wo, ng, back, bodies, beyond, wavelengths[i]);
-        density[i] = 0.0f;
-        const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
-        vstore4(f, 0, values);
-        value[i] = values[i];
-    }
-    *densities = vload4(0, density);
-    return vload4(0, value);
 }
 
 /* The density of what was drawn, over all choices of the first wavelength. */
@@ -125,13 +109,21 @@ TRIAD_FUNCTION void path_draw_wavelength(PathColour* c, const Scene* scene, cons
 }
 #endif
 
-TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+/* All wavelengths together. */
+TRIAD_FUNCTION PathColour path_colour_white(void) {
     PathColour c;
     c.wavelength = 0.0f;
 #if TRIAD_DISPERSION
     c.filter = (float3)(1.0f);
     c.before = (float3)(0.0f);
     c.share = 1.0f;
+#endif
+    return c;
+}
+
+TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+    PathColour c = path_colour_white();
+#if TRIAD_DISPERSION
     float3 nothing = (float3)(0.0f);
     if (scene->frame->wavelength_from_camera)
         path_take_wavelength(&c, scene, sampler_2d(sampler, PATH_WAVELENGTH_SET).x, 1.0f, &nothing);
@@ -141,6 +133,7 @@ TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* s
     return c;
 }
 
+TRIAD_FUNCTION float path_wavelengths(const PathColour* c) { return c->wavelength; }
 TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelength; }
 TRIAD_FUNCTION Colour path_colour(const PathColour* c, float3 rgb) {
     (void)c;
@@ -171,26 +164,33 @@ TRIAD_FUNCTION float3 path_rgb(const PathColour* c, float3 radiance) { return pa
 
 #endif
 
+#if TRIAD_LIGHT_SPECTRA
+/* What a spectrum of light has of the path's wavelengths. */
+#if TRIAD_HERO
+TRIAD_FUNCTION_ONCE Colour path_spectrum(global const Spectrum* spectra, uint which, float4 at) {
+    float wavelengths[4], light[4];
+    vstore4(at, 0, wavelengths);
+    for (uint i = 0u; i < 4u; ++i) light[i] = spectrum_of_light(spectra, which, wavelengths[i]);
+    return vload4(0, light);
+}
+#else
+TRIAD_FUNCTION Colour path_spectrum(global const Spectrum* spectra, uint which, float wavelength) {
+    return wavelength > 0.0f ? (float3)(spectrum_of_light(spectra, which, wavelength))
+                             : spectrum_colour_of_light(spectra, which);
+}
+#endif
+#endif
+
 /* The light of a Light with these flags, whose colour is `rgb`. */
 TRIAD_FUNCTION Colour path_light(const Scene* scene, const PathColour* c, uint flags, float3 rgb) {
+    const Colour colour = path_colour(c, rgb);
 #if TRIAD_LIGHT_SPECTRA
     const uint which = flags >> LIGHT_SPECTRUM_SHIFT;
-    if (which != 0u) {
-#if TRIAD_HERO
-        float wavelengths[4], light[4];
-        vstore4(c->wavelengths, 0, wavelengths);
-        for (uint i = 0u; i < 4u; ++i) light[i] = spectrum_of_light(scene->spectrum, which, wavelengths[i]);
-        return path_colour(c, rgb) * vload4(0, light);
-#else
-        return rgb * (c->wavelength > 0.0f
-                          ? (float3)(spectrum_of_light(scene->spectrum, which, c->wavelength))
-                          : spectrum_colour_of_light(scene->spectrum, which));
-#endif
-    }
+    if (which != 0u) return colour * path_spectrum(scene->spectrum, which, path_wavelengths(c));
 #else
     (void)scene, (void)flags;
 #endif
-    return path_colour(c, rgb);
+    return colour;
 }
 
 #if TRIAD_TRANSMISSION
