@@ -6,6 +6,7 @@
 #include <new>
 
 #include "app/command_line.h"
+#include "device/device.h"
 
 namespace {
 
@@ -72,6 +73,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    survive_drivers(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
     std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
     try {
