@@ -182,8 +182,8 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
                          ".";
         core.check("clEnqueueNDRangeKernel", CL_INVALID_WORK_GROUP_SIZE, where);
     }
-    if (state_->ran.emplace(state.where.program + " " + kernel.name(), local).second)
-        if (restarts_allowed() && !state_->first_runs)
+    if (restarts_allowed() && state_->ran.emplace(state.where.program + " " + kernel.name(), local).second)
+        if (!state_->first_runs)
             state_->first_runs.emplace(opencl::running_note(info(), kernel.name()), Peril::Of::kernels);
     const std::size_t global = (items + local - 1) / local * local;
     cl_event event = nullptr;

@@ -210,6 +210,10 @@ Found choose(const std::string& selector) {
         throw Error(Exit::device, left_out->info.name + " cannot be used. " + left_out->info.why_unusable);
     if (selector.empty())
         throw Error(Exit::device, "No OpenCL device is usable. There are:" + list_of(found));
+    const bool is_index = selector.find_first_not_of("0123456789") == std::string::npos;
+    for (const auto& [driver, why] : problems)
+        if (!is_index && lower(driver).find(lower(selector)) != std::string::npos)
+            throw Error(Exit::device, "The OpenCL driver " + driver + " cannot be used. " + why);
     throw Error(Exit::usage, "No usable device is called \"" + selector +
                                  "\" (an index, cpu, gpu, or part of a name). There are:" + list_of(found));
 }

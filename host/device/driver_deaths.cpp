@@ -88,7 +88,7 @@ std::string why_not_writable(const fs::path& folder) {
 std::string pocl_cache_fault(const fs::path& folder) {
     for (const Death& death : earlier_deaths())
         if (const auto note = parse(death.note); note && note->cache == folder)
-            return "PoCL died (" + death.cause + ") when it " + note->did + ". What it keeps in " +
+            return "PoCL died of " + death.cause + " when it " + note->did + ". What it keeps in " +
                    folder.string() +
                    " may be damaged, or that disk full: this run uses a temporary folder instead. If that "
                    "helps, "
@@ -147,7 +147,7 @@ std::string why_left_out(const DeviceInfo& device) {
         if (!note || !note->cache.empty() || note->platform != device.platform || note->name != device.name ||
             note->driver != device.driver)
             continue;
-        const std::string why = "Its driver died (" + death.cause + ") when it " + note->did + ".";
+        const std::string why = "Its driver died of " + death.cause + " when it " + note->did + ".";
         warn(device.name + " is left out. " + why);
         // Of what it ran it may have died for the sake of one scene.
         if (note->kind == compiling) keep(device, why);
@@ -164,6 +164,12 @@ void place_pocl_cache(const std::vector<Icd>& icds) {
     if (pocl().trouble.empty()) return;
     pocl().temporary.emplace();
     ::setenv("POCL_CACHE_DIR", pocl().temporary->path().c_str(), 1);
+}
+
+bool is_pocl_cache_full() {
+    std::error_code failed;
+    const fs::space_info disk = fs::space(pocl_cache(), failed);
+    return !failed && !pocl().temporary && disk.available < (std::uintmax_t(16) << 20);
 }
 
 const std::string& pocl_cache_trouble() { return pocl().trouble; }

@@ -195,9 +195,9 @@ const std::vector<PlatformProblem>& load_drivers() {
         const auto deaths = std::ranges::count_if(earlier_deaths(), died);
         if (deaths > 1)
             throw Error(Exit::device,
-                        "The OpenCL drivers take this program down when they are loaded (" +
+                        "The OpenCL drivers take this program down when they are loaded, by " +
                             earlier_deaths().back().cause +
-                            "), but did not when they were tried. OCL_ICD_VENDORS=NAME.icd picks one of "
+                            ", but did not when they were tried. OCL_ICD_VENDORS=NAME.icd picks one of "
                             "/etc/OpenCL/vendors.");
         const Problems bad = bad_ones(icds, deaths == 0);
         if (!bad.empty()) {

@@ -28,5 +28,7 @@ bool is_pocl(const std::string& platform);
 void place_pocl_cache(const std::vector<Icd>& icds);
 /// The sentence that says so; empty where PoCL has its own.
 const std::string& pocl_cache_trouble();
+/// Whether its own lies on a disk without room for a few programs.
+bool is_pocl_cache_full();
 
 }  // namespace triad::opencl

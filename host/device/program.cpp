@@ -102,6 +102,7 @@ std::shared_ptr<void> compile(const DeviceState& state, const std::string& text,
     core.check("clCreateProgramWithSource", code, names);
     auto owned = own(program, clReleaseProgram, state.core);
     code = clBuildProgram(program, 1, &state.device, names.options.c_str(), nullptr, nullptr);
+    if (code != CL_SUCCESS && is_pocl(core.info.platform) && is_pocl_cache_full()) peril.die("a full disk");
     Where where = names;
     where.log = build_log(program, state.device);
     if (code != CL_SUCCESS) where.sentence = "The driver cannot compile " + names.program + ".";
@@ -109,7 +110,7 @@ std::shared_ptr<void> compile(const DeviceState& state, const std::string& text,
     // PoCL reads an emptied file of its cache as a program without kernels.
     std::size_t kernels = 1;
     clGetProgramInfo(program, CL_PROGRAM_NUM_KERNELS, sizeof kernels, &kernels, nullptr);
-    if (kernels == 0 && is_pocl(core.info.platform)) peril.die("it gave a program without kernels");
+    if (kernels == 0 && is_pocl(core.info.platform)) peril.die("a program without kernels");
     if (!where.log.empty()) detail("Build log of " + names.program + ":\n" + where.log);
     return owned;
 }
