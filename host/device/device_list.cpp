@@ -185,7 +185,11 @@ std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
         each.left_out = true, each.info.usable = false, each.info.why_unusable = why;
     }
     const auto best = std::min_element(found.begin(), found.end(), better);
-    if (best != found.end()) best->info.preferred = best->info.usable;
+    if (best == found.end() || !best->info.usable) return found;
+    best->info.preferred = true;
+    // Only where another device remains: an only one that died for want of memory must not be lost for a day.
+    for (const Found& each : found)
+        if (each.left_out) keep_death(each.info);
     return found;
 }
 

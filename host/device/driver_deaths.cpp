@@ -90,9 +90,8 @@ std::string pocl_cache_fault(const fs::path& folder) {
         if (const auto note = parse(death.note); note && note->cache == folder)
             return "PoCL died of " + death.cause + " when it " + note->did + ". What it keeps in " +
                    folder.string() +
-                   " may be damaged, or that disk full: this run uses a temporary folder instead. If that "
-                   "helps, "
-                   "delete the folder or make room, or set POCL_CACHE_DIR to another.";
+                   " may be damaged, or that disk full: this run uses a temporary folder. If that helps, "
+                   "delete the folder, make room, or set POCL_CACHE_DIR to another.";
     const std::string why = why_not_writable(folder);
     if (why.empty()) return {};
     return "PoCL cannot keep compiled kernels in " + folder.string() + " (" + why +
@@ -113,6 +112,22 @@ void keep(const DeviceInfo& device, const std::string& why) {
     } catch (const std::exception& error) {
         detail(std::string("That the driver died is not kept: ") + error.what());
     }
+}
+
+struct DriverDeath {
+    std::string why;
+    bool of_compiling;
+};
+
+/// How this device's driver ended an earlier life of this process, if nothing but the driver is to blame.
+std::optional<DriverDeath> death_of(const DeviceInfo& device) {
+    for (const Death& death : earlier_deaths())
+        if (const auto note = parse(death.note); note && note->cache.empty() &&
+                                                 note->platform == device.platform &&
+                                                 note->name == device.name && note->driver == device.driver)
+            return DriverDeath{"Its driver died of " + death.cause + " when it " + note->did + ".",
+                               note->kind == compiling};
+    return {};
 }
 
 /// From another process, within a day.
@@ -142,24 +157,21 @@ std::string running_note(const DeviceInfo& device, const std::string& kernel) {
 }
 
 std::string why_left_out(const DeviceInfo& device) {
-    for (const Death& death : earlier_deaths()) {
-        const auto note = parse(death.note);
-        if (!note || !note->cache.empty() || note->platform != device.platform || note->name != device.name ||
-            note->driver != device.driver)
-            continue;
-        const std::string why = "Its driver died of " + death.cause + " when it " + note->did + ".";
-        warn(device.name + " is left out. " + why);
-        // Of what it ran it may have died for the sake of one scene.
-        if (note->kind == compiling) keep(device, why);
-        return why;
-    }
-    return kept_reason(device);
+    const std::optional<DriverDeath> death = death_of(device);
+    if (!death) return kept_reason(device);
+    warn(device.name + " is left out. " + death->why);
+    return death->why;
+}
+
+void keep_death(const DeviceInfo& device) {
+    const std::optional<DriverDeath> death = death_of(device);
+    if (death && death->of_compiling) keep(device, death->why);
 }
 
 void place_pocl_cache(const std::vector<Icd>& icds) {
     const bool installed = std::ranges::any_of(
         icds, [](const Icd& icd) { return (icd.name + icd.library).find("pocl") != std::string::npos; });
-    if (!installed) return;
+    if (!installed && earlier_deaths().empty()) return;
     pocl().trouble = pocl_cache_fault(pocl_cache());
     if (pocl().trouble.empty()) return;
     pocl().temporary.emplace();

@@ -20,6 +20,9 @@ std::string running_note(const DeviceInfo& device, const std::string& kernel);
 /// Why this device is left out: its driver died of a call, in an earlier life of this process or, when it was
 /// compiling, in another process within a day. Empty: it did not.
 std::string why_left_out(const DeviceInfo& device);
+/// Remembers for a day that the driver died in an earlier life of this process, if it died compiling: of what
+/// it ran, it may have died for the sake of one scene.
+void keep_death(const DeviceInfo& device);
 
 bool is_pocl(const std::string& platform);
 
