@@ -5,21 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
+
 namespace triad {
-
-/// A new folder below the system's temporary one, removed with all that is in it.
-class TemporaryFolder {
-  public:
-    /// Throws Error(scene) when it cannot be made.
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// Runs `arguments[0]`, found along PATH, without a shell and without input, and waits; what it prints goes
 /// to the two files. Its exit status (128 + signal when a signal ended it), or nothing when there is no such

@@ -5,10 +5,14 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 
 #include "base/error.h"
+#include "base/log.h"
+#include "base/temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -97,6 +101,31 @@ void write_file(const fs::path& path, std::string_view bytes) {
     });
 }
 
+bool is_older_than_a_day(const fs::path& path) {
+    std::error_code failed;
+    const auto written = fs::last_write_time(path, failed);
+    return failed || fs::file_time_type::clock::now() - written > std::chrono::hours(24);
+}
+
+namespace {
+
+/// The cache folder that this process has when the user's cannot be written.
+fs::path temporary_cache(const std::string& why) {
+    static const std::unique_ptr<TemporaryFolder> folder = []() -> std::unique_ptr<TemporaryFolder> {
+        try {
+            return std::make_unique<TemporaryFolder>();
+        } catch (const Error&) {
+            return nullptr;
+        }
+    }();
+    warn("Nothing can be kept for later runs: " + why +
+         ". XDG_CACHE_HOME names a folder for it; this run uses a temporary one and does all again that is "
+         "done once.");
+    return folder ? folder->path() : fs::path{};
+}
+
+}  // namespace
+
 fs::path cache_folder() {
     fs::path base;
     if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) {
@@ -104,12 +133,13 @@ fs::path cache_folder() {
     } else if (const char* home = std::getenv("HOME"); home && *home) {
         base = fs::path(home) / ".cache";
     } else {
-        return {};
+        return temporary_cache("neither XDG_CACHE_HOME nor HOME is set");
     }
     base /= "triad";
     std::error_code failed;
     fs::create_directories(base, failed);
-    return failed ? fs::path{} : base;
+    if (!failed && ::access(base.c_str(), W_OK | X_OK) != 0) failed = {errno, std::generic_category()};
+    return failed ? temporary_cache(base.string() + " cannot be written (" + failed.message() + ")") : base;
 }
 
 }  // namespace triad

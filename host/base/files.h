@@ -22,8 +22,11 @@ void write_aside(const std::filesystem::path& path,
 /// write_aside of these bytes, checked to the last one (a full disk is an Error(scene)).
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// $XDG_CACHE_HOME/triad or ~/.cache/triad, created on demand; empty when neither can be had (then nothing is
-/// cached).
+/// Whether a file was last written more than a day ago, or cannot be asked.
+bool is_older_than_a_day(const std::filesystem::path& path);
+
+/// $XDG_CACHE_HOME/triad or ~/.cache/triad, created on demand. Where neither can be written: a temporary
+/// folder of this process, which a warning tells; empty when there is none either (then nothing is cached).
 std::filesystem::path cache_folder();
 
 }  // namespace triad

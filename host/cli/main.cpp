@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "device/device.h"
 
 namespace {
 
@@ -73,6 +74,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    survive_drivers(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
     std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
     try {

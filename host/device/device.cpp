@@ -42,6 +42,7 @@ cl_device_id restrict_to(unsigned threads, DeviceState& state) {
 void DeviceState::finish() {
     core->require_alive();
     core->check("clFinish", clFinish(commands()));
+    first_runs.reset();
     for (const auto& [kernel, handle] : events) {
         cl_ulong start = 0, end = 0;
         const auto event = static_cast<cl_event>(handle.get());
@@ -68,10 +69,11 @@ Device Device::open(const Settings& settings) {
     state->profile = settings.profile;
     state->platform_version = opencl::platform_text(found.platform, CL_PLATFORM_VERSION);
     // PoCL keeps compiled kernels itself, and asking it for binaries compiles everything a second time.
-    state->disk_cache = found.info.platform != "Portable Computing Language";
+    state->disk_cache = !opencl::is_pocl(found.info.platform);
     state->device = found.device;
     state->device = opencl::restrict_to(settings.threads, *state);
 
+    const Peril peril(opencl::compiling_note(found.info, "opened the device"));
     cl_int code = CL_SUCCESS;
     const cl_context_properties on[] = {CL_CONTEXT_PLATFORM,
                                         reinterpret_cast<cl_context_properties>(found.platform), 0};
@@ -154,6 +156,7 @@ void Device::read(const Buffer& buffer, void* data, std::size_t bytes, std::size
     state_->core->check("clEnqueueReadBuffer",
                         clEnqueueReadBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
                                             CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+    state_->first_runs.reset();
 }
 
 void Device::fill_zero(const Buffer& buffer) {
@@ -201,6 +204,9 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
                          ".";
         core.check("clEnqueueNDRangeKernel", CL_INVALID_WORK_GROUP_SIZE, where);
     }
+    if (restarts_allowed() && state_->ran.emplace(state.where.program + " " + kernel.name(), local).second)
+        if (!state_->first_runs)
+            state_->first_runs.emplace(opencl::running_note(info(), kernel.name()), Peril::Of::kernels);
     const std::size_t global = (items + local - 1) / local * local;
     cl_event event = nullptr;
     core.check("clEnqueueNDRangeKernel",

@@ -53,6 +53,11 @@ struct DeviceList {
     std::vector<PlatformProblem> problems;
 };
 
+/// For the first lines of main(): from here on a driver that takes the process down costs no more than a
+/// sentence and a new start (docs/decisions/drivers.md). Without it drivers are loaded untried, and what an
+/// earlier program found is still believed. Does not return in the child process that tries drivers.
+void survive_drivers(int argc, char** argv);
+
 /// Every device of every platform, in the order of their indices. Never throws for a broken one: it is listed
 /// as unusable, or as a problem.
 DeviceList list_devices();

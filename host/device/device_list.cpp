@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <tuple>
 
+#include "base/log.h"
 #include "device/opencl.h"
 
 namespace triad::opencl {
@@ -120,10 +121,17 @@ bool matches(const DeviceInfo& info, const std::string& selector) {
 
 std::string list_of(const std::vector<Found>& found) {
     std::string text;
-    for (const auto& [platform, device, info] : found)
+    for (const auto& [platform, device, info, left_out] : found)
         text += "\n  " + std::to_string(info.index) + "  " + info.name + " (" + info.type + ", " +
                 info.platform + ")" + (info.usable ? "" : ": " + info.why_unusable);
     return text;
+}
+
+/// What -v says of what was passed over.
+void tell(const std::vector<PlatformProblem>& problems, const std::vector<Found>& found) {
+    for (const auto& [platform, why] : problems) detail("Platform " + platform + " is left out. " + why);
+    for (const Found& each : found)
+        if (!each.info.usable) detail(each.info.name + " is left out. " + each.info.why_unusable);
 }
 
 }  // namespace
@@ -132,15 +140,11 @@ std::string platform_text(cl_platform_id platform, cl_platform_info what) {
     return text_of(clGetPlatformInfo, platform, what);
 }
 
-std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
+std::vector<Found> ask_drivers(std::vector<PlatformProblem>& problems) {
     std::vector<Found> found;
     cl_uint count = 0;
     // CL_PLATFORM_NOT_FOUND_KHR (-1001) and any other failure mean the same here: nothing is installed that
     // works.
-    // Intel's runtime for CPUs reads this when it is loaded; no other driver knows it. Vectorising whole
-    // kernels across work-items, its default, makes Triad's several times slower (their vectors lie within a
-    // ray) and computes wrong values for some (docs/kernels.md). A value that the user has set stays.
-    ::setenv(vectorizer_mode, "1", 0);
     if (clGetPlatformIDs(0, nullptr, &count) != CL_SUCCESS || count == 0) return found;
     std::vector<cl_platform_id> platforms(count);
     if (clGetPlatformIDs(count, platforms.data(), nullptr) != CL_SUCCESS) return found;
@@ -164,14 +168,36 @@ std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
             found.back().info.index = found.size() - 1;
         }
     }
+    return found;
+}
+
+std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
+    // Intel's runtime for CPUs reads this when it is loaded; no other driver knows it. Vectorising whole
+    // kernels across work-items, its default, makes Triad's several times slower (their vectors lie within a
+    // ray) and computes wrong values for some (docs/kernels.md). A value that the user has set stays.
+    ::setenv(vectorizer_mode, "1", 0);
+    const Peril peril(listing_note);
+    problems = load_drivers();
+    std::vector<Found> found = ask_drivers(problems);
+    for (Found& each : found) {
+        if (is_pocl(each.info.platform) && !pocl_cache_trouble().empty()) warn(pocl_cache_trouble());
+        const std::string why = why_left_out(each.info);
+        if (why.empty()) continue;
+        each.left_out = true, each.info.usable = false, each.info.why_unusable = why;
+    }
     const auto best = std::min_element(found.begin(), found.end(), better);
-    if (best != found.end()) best->info.preferred = best->info.usable;
+    if (best == found.end() || !best->info.usable) return found;
+    best->info.preferred = true;
+    // Only where another device remains: an only one that died for want of memory must not be lost for a day.
+    for (const Found& each : found)
+        if (each.left_out) keep_death(each.info);
     return found;
 }
 
 Found choose(const std::string& selector) {
     std::vector<PlatformProblem> problems;
     std::vector<Found> found = find_devices(problems);
+    tell(problems, found);
     if (found.empty()) {
         std::string text =
             "There is no OpenCL device. Install a driver: your GPU's, or PoCL, which runs on the CPU "
@@ -184,8 +210,15 @@ Found choose(const std::string& selector) {
                  [&](const Found& each) { return matches(each.info, selector); });
     const auto best = std::min_element(matching.begin(), matching.end(), better);
     if (best != matching.end() && best->info.usable) return *best;
+    const auto left_out = std::ranges::find_if(matching, &Found::left_out);
+    if (!selector.empty() && left_out != matching.end())
+        throw Error(Exit::device, left_out->info.name + " cannot be used. " + left_out->info.why_unusable);
     if (selector.empty())
         throw Error(Exit::device, "No OpenCL device is usable. There are:" + list_of(found));
+    const bool is_index = selector.find_first_not_of("0123456789") == std::string::npos;
+    for (const auto& [driver, why] : problems)
+        if (!is_index && lower(driver).find(lower(selector)) != std::string::npos)
+            throw Error(Exit::device, "The OpenCL driver " + driver + " cannot be used. " + why);
     throw Error(Exit::usage, "No usable device is called \"" + selector +
                                  "\" (an index, cpu, gpu, or part of a name). There are:" + list_of(found));
 }

@@ -5,8 +5,10 @@
 #include <CL/cl.h>
 
 #include <atomic>
+#include <set>
 
 #include "device/device.h"
+#include "device/drivers.h"
 
 namespace triad::opencl {
 
@@ -15,10 +17,14 @@ struct Found {
     cl_platform_id platform = nullptr;
     cl_device_id device = nullptr;
     DeviceInfo info;
+    bool left_out = false;  ///< its driver died
 };
 
-/// All devices of all platforms, with `preferred` set on at most one; `problems` receives the platforms
+/// All devices of all platforms as the loaded drivers describe them; `problems` receives the platforms
 /// without any.
+std::vector<Found> ask_drivers(std::vector<PlatformProblem>& problems);
+
+/// The same, when drivers that die have been dealt with, with `preferred` set on at most one.
 std::vector<Found> find_devices(std::vector<PlatformProblem>& problems);
 
 /// The usable device that Settings::selector means. Throws as Device::open says.
@@ -84,6 +90,8 @@ struct DeviceState {
     std::map<std::pair<std::string, std::string>, Program> programs;    ///< by text and options
     std::vector<std::pair<std::string, std::shared_ptr<void>>> events;  ///< launches not yet in `times`
     std::map<std::string, KernelTime> times;
+    std::set<std::pair<std::string, std::size_t>> ran;  ///< kernels by name and work-group size
+    std::optional<Peril> first_runs;                    ///< of kernels, until they have ended
     std::size_t preferred_local = 1;
     double compile_seconds = 0;
 

@@ -61,6 +61,7 @@ std::shared_ptr<void> load_binary(const DeviceState& state, const fs::path& path
         if (Hash().add(binary, size).hex() !=
             std::string(file.begin(), file.begin() + static_cast<long>(digits)))
             return {};
+        const Peril peril(compiling_note(state.core->info, "loaded a compiled program"));
         cl_int code = CL_SUCCESS, status = CL_SUCCESS;
         cl_program program =
             clCreateProgramWithBinary(state.cl(), 1, &state.device, &size, &binary, &status, &code);
@@ -95,16 +96,22 @@ void store_binary(cl_program program, const fs::path& path) {
 
 std::shared_ptr<void> compile(const DeviceState& state, const std::string& text, const Where& names) {
     Core& core = *state.core;
+    const Peril peril(compiling_note(core.info, "compiled " + names.program));
     const char* source = text.c_str();
     cl_int code = CL_SUCCESS;
     cl_program program = clCreateProgramWithSource(state.cl(), 1, &source, nullptr, &code);
     core.check("clCreateProgramWithSource", code, names);
     auto owned = own(program, clReleaseProgram, state.core);
     code = clBuildProgram(program, 1, &state.device, names.options.c_str(), nullptr, nullptr);
+    if (code != CL_SUCCESS && is_pocl(core.info.platform) && is_pocl_cache_full()) peril.die("a full disk");
     Where where = names;
     where.log = build_log(program, state.device);
     if (code != CL_SUCCESS) where.sentence = "The driver cannot compile " + names.program + ".";
     core.check("clBuildProgram", code, where);
+    // PoCL reads an emptied file of its cache as a program without kernels.
+    std::size_t kernels = 1;
+    clGetProgramInfo(program, CL_PROGRAM_NUM_KERNELS, sizeof kernels, &kernels, nullptr);
+    if (kernels == 0 && is_pocl(core.info.platform)) peril.die("a program without kernels");
     if (!where.log.empty()) detail("Build log of " + names.program + ":\n" + where.log);
     return owned;
 }

@@ -1,0 +1,37 @@
+#pragma once
+/// A program that outlives the libraries that it calls. While a Peril exists, a crash, an abort or an exit()
+/// does not end the program but starts it again from its beginning, in the same process, and what the Peril
+/// says is then among the earlier deaths. Nothing is paid for this until it happens.
+#include <string>
+#include <vector>
+
+namespace triad {
+
+/// For the first lines of main(), before other threads. Without this call a Peril does nothing.
+void allow_restarts(char** argv);
+bool restarts_allowed();
+
+struct Death {
+    std::string note;   ///< of the Peril
+    std::string cause;  ///< a phrase: "signal 6 (Aborted)"
+};
+/// How earlier lives of this program ended, in their order.
+const std::vector<Death>& earlier_deaths();
+
+class Peril {
+  public:
+    /// Drivers catch SIGFPE of the kernels that they run, which is then no crash.
+    enum class Of { calls, kernels };
+    explicit Peril(const std::string& note, Of of = Of::calls);
+    ~Peril();
+    Peril(const Peril&) = delete;
+    Peril& operator=(const Peril&) = delete;
+    /// For what is as bad as a crash: starts again with this cause, or returns when that is not allowed.
+    void die(const char* cause) const;
+
+  private:
+    struct Life* next_ = nullptr;
+    Of of_;
+};
+
+}  // namespace triad
