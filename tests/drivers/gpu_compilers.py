@@ -60,8 +60,7 @@ def text_key(kernels, sets, item):
     target, program, name = item
     defines = [f"-D{macro}={value}" for macro, value in sets[name].items()]
     text = target.preprocess(kernels, program, defines)
-    parts = [pathlib.Path(gpu_targets.__file__).read_text(), target.name, target.version, text]
-    return hashlib.sha256("\0".join(parts).encode()).hexdigest(), defines
+    return hashlib.sha256(f"{gpu_targets.identity(target)}\0{text}".encode()).hexdigest(), defines
 
 
 def jobs(targets, programs, sets, kernels, pool):

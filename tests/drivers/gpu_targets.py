@@ -4,6 +4,7 @@ A target's preprocess() gives the text that decides the result, its compile() ru
 registers, stack (bytes of private memory per work-item, of the functions it calls too), spills (bytes of spill stores; on
 Intel the compiler's own count) and width (warps of 64 on NVIDIA and waves of 8, 10 or 16 on AMD that fit beside each other
 by their registers; the SIMD width on Intel)."""
+import inspect
 import os
 import re
 import resource
@@ -13,7 +14,7 @@ import subprocess
 # What the host passes everywhere, docs/kernels.md.
 FLAGS = ["-cl-std=CL1.2", "-cl-fp32-correctly-rounded-divide-sqrt"]
 DENORMALS = "-cl-denorms-are-zero"
-TIME_LIMIT = 600  # seconds of one compilation
+TIME_LIMIT = 600  # seconds of the processor, for one compilation
 
 
 class Failure(Exception):
@@ -25,11 +26,10 @@ class Failure(Exception):
 
 
 def run(command, environment=None):
-    try:
-        done = subprocess.run(command, env=environment, text=True, errors="replace", timeout=TIME_LIMIT,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-    except subprocess.TimeoutExpired:
-        raise Failure(False, f"not done after {TIME_LIMIT} s") from None
+    done = subprocess.run(command, env=environment, text=True, errors="replace", stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (TIME_LIMIT, TIME_LIMIT + 5)))
+    if done.returncode == -signal.SIGXCPU:
+        raise Failure(False, f"not done after {TIME_LIMIT} s")
     if done.returncode < 0:
         raise Failure(True, signal.Signals(-done.returncode).name)
     if done.returncode or "error:" in done.stdout:
@@ -163,6 +163,11 @@ class Intel:
         for buffer in about.partition("per_thread_memory_buffers:")[2].split("- type:")[1:]:
             size = int(re.search(r"\n +size: +(\d+)", buffer)[1])
             yield size if re.search(r"is_simt_thread: +true", buffer) else size // width
+
+
+def identity(target):
+    """All of a compilation but the text: a result may be kept as long as this is the same."""
+    return "\0".join([target.name, target.version, *FLAGS, DENORMALS, inspect.getsource(clang), inspect.getsource(type(target))])
 
 
 def targets(ptxas, intel, long):
