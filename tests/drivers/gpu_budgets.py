@@ -1,9 +1,9 @@
 """What kernels may take: gpu_budgets.json against what the compilers say.
 
 The file's rows: "kernels" (patterns), "options" (names of option sets as patterns, or OPTION=VALUE; all of them must
-hold), "target", "goal" (where they shall end) and "limit" (what is enforced; it may only go down). A kernel answers to the
-first row that fits it. Of `width` a limit is the least, of the rest the most. "crashes" lists the
-programs that a compiler is known to crash on, with target and option sets."""
+hold), "target", "goal" (where they shall end) and "limit" (what is enforced; it may only go down; null until
+--lower has measured it). A kernel answers to the first row that fits it. Of `width` a limit is the least, of the rest the
+most. "crashes" lists the programs that a compiler is known to crash on, with target and option sets."""
 import fnmatch
 import json
 import pathlib
@@ -80,7 +80,7 @@ class Budgets:
         for figure, limit in row["limit"].items():
             value = figures[figure]
             row["measured"][figure] = worst(figure, [value, row["measured"].get(figure, value)])
-            if exceeds(figure, value, limit):
+            if limit is not None and exceeds(figure, value, limit):
                 yield f"{of}: {figure} {value}, and its limit is {limit} (the row of {row['kernels']}, {row['options']} in {PATH.name})"
 
     def lower(self):
@@ -88,7 +88,7 @@ class Budgets:
         for row in self.rows:
             for figure, value in row["measured"].items():
                 value = worst(figure, [value, row["goal"].get(figure, value)])
-                if exceeds(figure, row["limit"][figure], value):
+                if row["limit"][figure] is None or exceeds(figure, row["limit"][figure], value):
                     row["limit"][figure] = value
         self.save()
 

@@ -33,7 +33,7 @@ def arguments():
                         help="folder for gpu-compilers.md, .csv and the cache of results")
     parser.add_argument("--publish", action="store_true", help="write the table to docs/measurements/ too")
     parser.add_argument("--lower", action="store_true", help="lower the limits to what was measured, where that is less")
-    parser.add_argument("--target", help="this one only")
+    parser.add_argument("--target", action="append", help="this one only; several allowed")
     parser.add_argument("--match", default="", help="programs whose path holds this")
     return parser.parse_args()
 
@@ -97,7 +97,7 @@ def main():
     cache.mkdir(parents=True, exist_ok=True)
     programs = sorted(str(path.relative_to(args.kernels)) for path in args.kernels.rglob("*.cl") if args.match in str(path))
     with tempfile.TemporaryDirectory() as folder:
-        targets = [t for t in gpu_targets.targets(args.ptxas, args.intel, args.long) if args.target in (None, t.name)]
+        targets = [t for t in gpu_targets.targets(args.ptxas, args.intel, args.long) if t.name in (args.target or [t.name])]
         unknown = [t for t in targets if not gpu_targets.knows(t, folder)]
     for target in unknown:
         print(f"{target.name} is not known to {target.version}: left out")

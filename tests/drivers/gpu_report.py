@@ -30,7 +30,7 @@ def table(heads, rows):
 
 
 def figures_text(figures):
-    return ", ".join(f"{name} {value}" for name, value in figures.items()) or "none"
+    return ", ".join(f"{name} {'not yet' if value is None else value}" for name, value in figures.items()) or "none"
 
 
 class Report:
@@ -83,7 +83,7 @@ class Report:
     @staticmethod
     def options():
         """Of the command, without those that the shell script adds."""
-        return [a for a in sys.argv[1:] if a in ("--long", "--publish", "--lower")]
+        return [a for a in sys.argv[5:] if not a.startswith("/")]
 
     def write(self, folder):
         folder.mkdir(parents=True, exist_ok=True)
