@@ -1,5 +1,6 @@
 #include "cli/suite.h"
 
+#include <cstdio>
 #include <memory>
 
 #include "cli/bench_error.h"
@@ -83,6 +84,8 @@ void add_bench_suite(CLI::App& bench, Exit& exit) {
     o->spp = suite_spp, o->reference_spp = suite_reference_spp;
     o->baselines = suite_baselines();
     declare(bench, *o);
+    auto list = std::make_shared<bool>();
+    bench.add_flag("--list", *list, "Print the suite's scenes with their options of triad render, and end");
     const std::vector<CLI::Option*> options = bench.get_options();
     bench.parse_complete_callback([options, &bench] {
         if (bench.get_subcommands().empty()) return;
@@ -92,8 +95,13 @@ void add_bench_suite(CLI::App& bench, Exit& exit) {
                                              bench.get_subcommands().front()->get_name() +
                                              ": options of a bench follow its name.");
     });
-    bench.callback([o, &bench, &exit] {
+    bench.callback([o, list, &bench, &exit] {
         if (!bench.get_subcommands().empty()) return;
+        if (*list) {
+            for (const NamedOptions& scene : suite_scenes(scenes_folder()))
+                std::printf("%s: %s\n", scene.name.c_str(), scene.text().c_str());
+            return;
+        }
         for (const NamedOptions& scene : suite_scenes(scenes_folder()))
             o->scenes.push_back(scene.name + ": " + scene.text());
         exit = run_bench_error(*o);

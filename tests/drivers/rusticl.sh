@@ -2,7 +2,7 @@
 # tests/drivers/rusticl.sh COMMAND [ARGUMENT...]
 # Runs a command with Mesa's rusticl on llvmpipe as the only driver: a third compiler. Debian's mesa-opencl-icd is unpacked
 # into build/drivers/rusticl (or $TRIAD_DRIVERS/rusticl) on the first call, so that no other program sees it; the libraries
-# that it uses, libclc-15 and libllvmspirvlib15, must be installed (libclc is found in its own place alone).
+# that it uses, libclc and libllvmspirvlib of the launcher's list, must be installed (libclc is found in its own place alone).
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${TRIAD_DRIVERS:-$root/build/drivers}/rusticl

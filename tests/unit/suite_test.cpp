@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
 
 #include "base/child_process.h"
@@ -29,6 +30,20 @@ TEST(Suite, TenScenesWithOptionsThatRenderKnows) {
         EXPECT_EQ(parse_setting(scene.name + ": " + scene.text()).arguments, scene.arguments);
     }
     EXPECT_EQ(names.size(), suite_baselines().size());
+}
+
+TEST(Suite, ListSaysTheScenesAsRenderTakesThem) {
+    const triad::TemporaryFolder made;
+    ASSERT_EQ(run_program({TRIAD_PROGRAM, "bench", "--list"}, made.path() / "out", made.path() / "log"), 0);
+    std::ifstream list(made.path() / "out");
+    std::vector<NamedOptions> found;
+    for (std::string line; std::getline(list, line);) found.push_back(parse_setting(line));
+    const auto scenes = suite_scenes(folder);
+    ASSERT_EQ(found.size(), scenes.size());
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        EXPECT_EQ(found[i].name, scenes[i].name);
+        EXPECT_NO_THROW(render_options({}, found[i], {"default", {}})) << scenes[i].name;
+    }
 }
 
 TEST(Suite, FilesReadWithoutWarningsAndHaveOneCamera) {
