@@ -6,6 +6,7 @@
  * written where it is meant. */
 #pragma OPENCL FP_CONTRACT OFF
 
+#include "common/builtins.h"
 #include "features.h"
 #include "types.h"
 
@@ -18,6 +19,12 @@
 /* Compiled once: drivers that make several entry points of a kernel (PoCL makes two) would compile its body
  * for each. */
 #define TRIAD_FUNCTION_ONCE static __attribute__((noinline))
+
+/* 1: vector lanes lie within an item, whose program loops over whole paths. 0: items are the lanes of the
+ * driver, and each is written in scalars (docs/kernels.md). */
+#ifndef TRIAD_ITEM_LANES
+#define TRIAD_ITEM_LANES 1
+#endif
 
 /* Asks for the cache line of a global address that is read some hundred cycles later. Only where it is one
  * instruction and the language's prefetch() does nothing (PoCL 3.1 on x86). */

@@ -193,14 +193,14 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
             coverage.ray += 1u;
 #endif
             photon_splat(sums, half_sums, tiles, first_pixel, pixels, &scene, photon_frame, &traversal, &s,
-                         &hit, wi, &around, wavelength, power * filter,
-                         (float2)(random_float(u.x.s2), random_float(u.y.s2)), half_index, &tally);
+                         &hit, wi, &around, wavelength, power * filter, random_point(u.set[2]), half_index,
+                         &tally);
         }
         const VertexBsdf v = vertex_bsdf(&scene, &s, wi, ng, back, bodies, around.beyond, wavelength);
 #if TRIAD_GATHER
         if (frame->photon_map && (edge > 1u || scatter) && bsdf_has_smooth(&v.bsdf)) {
             ++landings;
-            if (random_float(u.x.s3) * convert_float(landings) < 1.0f) {
+            if (random_float(u.set[3].x) * convert_float(landings) < 1.0f) {
                 const int baked = frame->wavelength_from_camera != 0u; /* as it was published: counts twice */
                 kept = photon_make(s.position,
                                    power * (baked ? filter : per_density) * (1.0f / math_dot(wi, ng)), wi, ng,
@@ -208,8 +208,8 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
             }
         }
 #endif
-        const BsdfSample sample_out = bsdf_sample(&v.bsdf, v.wo, random_float(u.x.s1),
-                                                  (float2)(random_float(u.x.s0), random_float(u.y.s0)));
+        const BsdfSample sample_out =
+            bsdf_sample(&v.bsdf, v.wo, random_float(u.set[1].x), random_point(u.set[0]));
         const int delta = (sample_out.event & BSDF_DELTA) != 0u;
         if (sample_out.event == BSDF_NONE || !(delta || scatter)) break;
         const float3 direction = frame_to_world(&v.frame, sample_out.wi);
@@ -232,7 +232,7 @@ TRIAD_FUNCTION_ONCE void trace_photon(PHOTON_PARAMETERS, size_t item) {
 #endif
         const float most = edge >= PHOTON_ROULETTE_FROM ? PHOTON_ROULETTE : 1.0f;
         const float survive = math_min(math_max3(throughput) * frame->roulette, most);
-        if (!(random_float(u.y.s1) < survive)) break;
+        if (!(random_float(u.set[1].y) < survive)) break;
         throughput *= 1.0f / survive;
 #if TRIAD_ALPHA_TEST
         coverage.ray += 1u;

@@ -62,8 +62,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
 #endif
             const SamplerBlock u = sampler_block(&random, path.edge);
 #if TRIAD_ENVIRONMENT_MAP
-            if (frame->environment.light != TRIAD_NONE)
-                environment_prefetch_columns(scene, (uint2)(u.x.s3, u.y.s3));
+            if (frame->environment.light != TRIAD_NONE) environment_prefetch_columns(scene, u.set[3]);
 #endif
 #if PATH_FORKS
             const Hit hit = again ? fork.hit : traverse_closest(&traversal, path.ray);
@@ -195,7 +194,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             if (frame->light_count != 0u && bsdf_has_smooth(&bsdf)) {
 #endif
                 LightSample light;
-                if (light_sample(scene, s.position, u.x.s2, (uint2)(u.x.s3, u.y.s3), &light)) {
+                if (light_sample(scene, s.position, u.set[2].x, u.set[3], &light)) {
                     const float side = math_dot(light.direction, ng);
                     const float3 wi = frame_to_local(&vertex.frame, light.direction);
                     /* the shading normal must not move light through the surface */
@@ -244,7 +243,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
                                           power_heuristic(bsdf_pdf * light.inverse_pdf);
                                 radiance += direct;
                                 RECORD(record_direct(&tally->recorder, path_found(&colours, direct), scene,
-                                                     u.x.s2);)
+                                                     u.set[2].x);)
                             }
                         }
                     }
@@ -252,8 +251,8 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             }
 
             RECORD(record_end(&tally->recorder, PATH_ABSORBED);)
-            const BsdfSample sample = bsdf_sample(&bsdf, wo_local, random_float(u.x.s1),
-                                                  (float2)(random_float(u.x.s0), random_float(u.y.s0)));
+            const BsdfSample sample =
+                bsdf_sample(&bsdf, wo_local, random_float(u.set[1].x), random_point(u.set[0]));
             if (sample.event == BSDF_NONE) break;
 #if PATH_GATHERS
             if ((ends_in_map || map_use == PHOTON_MAP_VISUALISED) && !(sample.event & BSDF_DELTA)) break;
@@ -293,7 +292,7 @@ TRIAD_FUNCTION_PER_CALL float4 path_trace(const Scene* scene, const Sampler* sam
             const float survive =
                 math_min(colour_max(path.throughput) * frame->roulette / path.body_scale, most);
             RECORD(record_end(&tally->recorder, PATH_ROULETTE);)
-            if (!(random_float(u.y.s1) < survive)) break;
+            if (!(random_float(u.set[1].y) < survive)) break;
             path.throughput *= 1.0f / survive;
             RECORD(record_end(&tally->recorder, PATH_GOES_ON);)
             RECORD(record_event(&tally->recorder, sample.event, path_found(&colours, path.throughput));)
