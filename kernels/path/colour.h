@@ -1,13 +1,13 @@
 /* The colours of a path: RGB, with one wavelength from some vertex on, or (TRIAD_HERO) four wavelengths. What
  * surfaces and lights say in RGB is turned into them here, and what a path found back into RGB for the film.
  */
-#ifndef TRIAD_SHADING_PATH_COLOUR_H
-#define TRIAD_SHADING_PATH_COLOUR_H
+#ifndef TRIAD_PATH_COLOUR_H
+#define TRIAD_PATH_COLOUR_H
 
 #include "common/colour.h"
 #include "common/random.h"
 #include "common/spectrum.h"
-#include "shading/vertex_bsdf.h"
+#include "shading/vertex.h"
 
 #define PATH_WAVELENGTH_SET 2u /* of random numbers: the samples of a pixel share the spectrum out evenly */
 /* That a path is followed with from its first dispersive surface on. Three have a quarter of the error of one
@@ -72,23 +72,6 @@ TRIAD_FUNCTION void path_end_others(PathColour* c, Colour* throughput) {
     c->share = (float4)(4.0f, 0.0f, 0.0f, 0.0f);
 }
 
-/* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
-TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, const PathColour* c, const Surface* s,
-                                          float3 wo, float3 ng, int back, Bodies bodies, Bodies beyond,
-                                          float3 wi, float4* densities) {
-    float wavelengths[4], values[4], value[4], density[4];
-    vstore4(c->wavelengths, 0, wavelengths);
-    for (uint i = 0u; i < 4u; ++i) {
-        const VertexBsdf v = vertex_bsdf(scene, s, wo, ng, back, bodies, beyond, wavelengths[i]);
-        density[i] = 0.0f;
-        const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
-        vstore4(f, 0, values);
-        value[i] = values[i];
-    }
-    *densities = vload4(0, density);
-    return vload4(0, value);
-}
-
 /* The density of what was drawn, over all choices of the first wavelength. */
 TRIAD_FUNCTION float path_mean_density(const PathColour* c, float4 densities) {
     return colour_average(c->share * densities);
@@ -125,13 +108,21 @@ TRIAD_FUNCTION void path_draw_wavelength(PathColour* c, const Scene* scene, cons
 }
 #endif
 
-TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+/* All wavelengths together. */
+TRIAD_FUNCTION PathColour path_colour_white(void) {
     PathColour c;
     c.wavelength = 0.0f;
 #if TRIAD_DISPERSION
     c.filter = (float3)(1.0f);
     c.before = (float3)(0.0f);
     c.share = 1.0f;
+#endif
+    return c;
+}
+
+TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+    PathColour c = path_colour_white();
+#if TRIAD_DISPERSION
     float3 nothing = (float3)(0.0f);
     if (scene->frame->wavelength_from_camera)
         path_take_wavelength(&c, scene, sampler_2d(sampler, PATH_WAVELENGTH_SET).x, 1.0f, &nothing);
