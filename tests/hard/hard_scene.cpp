@@ -2,27 +2,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <stdexcept>
 
 #include "kernels/types.h"
 #include "scene/view.h"
 
 namespace triad::hard {
-
-std::string why_no_scenes() {
-    if (std::string(TRIAD_PYTHON).empty())
-        return "The hard scenes are generated, and no python3 with numpy was found: install python3-numpy.";
-    return {};
-}
-
-std::filesystem::path generated(const std::string& name) {
-    const std::string command = "'" TRIAD_PYTHON "' '" TRIAD_SOURCE_DIR
-                                "/scenes/hard/generate.py' --out '" TRIAD_HARD_FOLDER "' '" +
-                                name + "'";
-    if (std::system(command.c_str()) != 0) throw std::runtime_error("This failed: " + command);
-    return TRIAD_HARD_FOLDER;
-}
 
 Scene load(const std::string& name) {
     Scene scene = load_gltf(generated(name) / (name + ".glb"));

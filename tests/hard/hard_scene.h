@@ -7,17 +7,13 @@
 #include <vector>
 
 #include "device/device_fixture.h"
+#include "generated_scenes.h"
 #include "io/io.h"
 #include "render/renderer.h"
 #include "scene/film.h"
 
 namespace triad::hard {
 
-/// Why generated scenes are not to be had; empty: they are.
-std::string why_no_scenes();
-
-/// The folder of generated files, in which `name` has just been written.
-std::filesystem::path generated(const std::string& name);
 /// The scene, validated.
 Scene load(const std::string& name);
 

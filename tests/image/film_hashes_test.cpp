@@ -1,0 +1,128 @@
+// Whatever is rebuilt inside, the films of today have the arrays of yesterday, bit for bit: those of
+// film_hashes.txt. Renewed on purpose by tests/image/update.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include "../device/device_fixture.h"
+#include "../program.h"
+#include "../unit/temporary_folder.h"
+#include "app/experiment.h"
+#include "app/prepare.h"
+#include "film_table.h"
+#include "io/io.h"
+#include "render/renderer.h"
+
+namespace triad {
+
+void PrintTo(const FilmCase& c, std::ostream* out) { *out << c.options; }
+
+namespace {
+
+bool renewing() { return std::getenv("TRIAD_RENEW") != nullptr; }
+
+const FilmTable& table() {
+    static const FilmTable loaded = load_film_table();
+    return loaded;
+}
+
+/// "device, version" without the device, which is the machine's processor and decides no bit.
+std::string version_of(const std::string& driver) { return driver.substr(driver.rfind(", ") + 2); }
+
+void run(const std::string& arguments) {
+    const Outcome outcome = run_triad(arguments);
+    if (outcome.exit != 0)
+        throw std::runtime_error("triad " + arguments + " ended with " + std::to_string(outcome.exit) + ": " +
+                                 outcome.output);
+}
+
+/// The film that the program writes with these options.
+Film film_of(const FilmCase& c) {
+    const TemporaryFolder folder;
+    const std::string film = "'" + (folder / "film").string() + "'";
+    const char* device = std::getenv("TRIAD_TEST_DEVICE");
+    const std::string how =
+        " -q --progress none" + (device ? " --device '" + std::string(device) + "'" : std::string());
+    std::istringstream parts(with_folders(c.options));
+    std::string common, part, merged;
+    std::getline(parts, common, '|');
+    while (std::getline(parts, part, '|')) {
+        merged += " " + film + std::to_string(merged.size());
+        run("render " + common + part + how + " --film" + merged.substr(merged.rfind(' ')));
+    }
+    if (merged.empty())
+        run("render " + common + how + " --film " + film);
+    else
+        run("merge" + merged + " -o " + film);
+    return load_film(folder / "film");
+}
+
+/// The reason why a driver may rightly give other films than the table's.
+std::string other_driver(const Film& film) {
+    const std::string& driver = film.devices.at(0);
+    if (version_of(driver) == version_of(table().driver)) return {};
+    return film_table_file.string() + " is for " + table().driver + ", this is " + driver +
+           ": another compiler may round otherwise.";
+}
+
+class FilmHashes : public testing::TestWithParam<FilmCase> {};
+
+TEST_P(FilmHashes, are_those_of_the_table) {
+    FilmCase c = GetParam();
+    if (const auto reason = why_not(c)) GTEST_SKIP() << *reason;
+    const Film film = film_of(c);
+    const ArrayHashes found = hashes_of(film);
+    const std::string differs = differences(found, c.expected);
+    if (renewing()) {
+        if (differs.empty() && film.devices.at(0) == table().driver) return;
+        if (!differs.empty()) std::printf("    %s: other %s\n", c.name.c_str(), differs.c_str());
+        c.expected = found;
+        return renew(c, film.devices.at(0));
+    }
+    if (const std::string reason = other_driver(film); !reason.empty()) GTEST_SKIP() << reason;
+    EXPECT_EQ(differs, "") << c.name << " (" << c.options << "); the table is of " << table().driver
+                           << ", this film of " << film.devices.at(0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, FilmHashes, testing::ValuesIn(table().cases),
+                         [](const auto& info) { return info.param.name; });
+
+/// The same film, in several pieces on a device that allocates little.
+Film film_in_bands(const FilmCase& c) {
+    NamedOptions scene{c.name, {}};
+    std::string text = with_folders(c.options);
+    std::erase(text, '\'');
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (word == "--spp" || word == "--adaptive")
+            words >> word;  // those of the goal below
+        else
+            scene.arguments.push_back(word);
+    }
+    const RenderOptions options = render_options({}, scene, {});
+    Device small = limited_device(900'000);
+    const Scene loaded = load_scene(options);
+    Renderer renderer(small, loaded, settings_of(options, loaded));
+    renderer.render_until({.samples = {0, 9}, .adaptive = c.name.ends_with("adaptive")},
+                          [](const Progress&) { return true; });
+    return renderer.film();
+}
+
+TEST(FilmHashesInBands, are_those_of_films_in_one_piece) {
+    unsigned cases = 0;
+    for (const FilmCase& c : load_film_table().cases) {
+        if (!c.name.starts_with("large_")) continue;
+        const Film film = film_in_bands(c);
+        ASSERT_GT(film.sums.size() * sizeof film.sums[0], 2 * 900'000u)
+            << c.name << " fits in one or two bands";
+        if (const std::string reason = other_driver(film); !reason.empty()) GTEST_SKIP() << reason;
+        EXPECT_EQ(differences(hashes_of(film), c.expected), "") << c.name;
+        ++cases;
+    }
+    EXPECT_EQ(cases, 4u);
+}
+
+}  // namespace
+}  // namespace triad
