@@ -117,7 +117,7 @@ std::vector<dev::Photon> landed_in(Device& device, Scene scene, std::uint64_t ph
     const dev::Frame frame = frame_of(packed, settings);
     PhotonMap map(device, photons);
     const DeviceScene on_device = upload(device, packed, settings, map.buffers());
-    const Kernel trace = device.build("photon/photon.cl", options_of(features_of(scene, settings, packed)))
+    const Kernel trace = device.build("path/photons.cl", options_of(features_of(scene, settings, packed)))
                              .kernel("trace_photons");
     const Buffer counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
     device.fill_zero(counters);

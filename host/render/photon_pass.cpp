@@ -36,7 +36,7 @@ void Renderer::State::prepare_photons() {
         scene.bytes += b->bytes();
     scene.bytes += map.bytes();
     const Options options = options_of(features);
-    trace_photons = device.build("photon/photon.cl", options).kernel("trace_photons");
+    trace_photons = device.build("path/photons.cl", options).kernel("trace_photons");
     if (map) map.compile(options);
     // Compiles, on some drivers; the film is still to be cleared.
     launch_photons(0, std::min<std::uint64_t>(photons, 64));

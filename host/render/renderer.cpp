@@ -122,7 +122,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     s.allocate_film();
 
     const auto compile_start = RenderClock::now();
-    s.trace_paths = device.build(program_of(settings, "path"), options_of(s.features)).kernel("trace_paths");
+    s.trace_paths = device.build(program_of(settings, "mega"), options_of(s.features)).kernel("trace_paths");
     // Some drivers generate code at the first launch: one tile, thrown away, keeps that out of render times.
     s.clear_film();
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
@@ -163,7 +163,7 @@ Film Renderer::film() {
 Renderer::FeaturePlanes Renderer::feature_planes(unsigned samples) {
     State& s = *state_;
     const Kernel trace_features =
-        s.device.build("shading/features.cl", options_of(s.features)).kernel("trace_features");
+        s.device.build("path/features.cl", options_of(s.features)).kernel("trace_features");
     const std::size_t pixels = s.film.pixels();
     Buffer planes[4];
     for (int i = 0; i < 4; ++i) planes[i] = s.device.allocate(pixels * (i == 3 ? 1 : 3) * sizeof(float));

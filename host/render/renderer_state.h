@@ -21,9 +21,9 @@ inline double seconds_since(RenderClock::time_point start) {
 /// there is one program for everything, and compiling is over before rendering begins.
 constexpr std::size_t largest_launch = 65535 / FILM_TILE_PIXELS;
 
-/// The program that traces (or records) paths with these settings.
+/// The program of kernels/path/ that follows (or records) paths with these settings.
 inline std::string program_of(const RenderSettings& settings, const std::string& what) {
-    return "shading/" + what + (settings.spectral == Spectral::full ? "_full.cl" : ".cl");
+    return "path/" + what + (settings.spectral == Spectral::full ? "_full.cl" : ".cl");
 }
 
 struct Renderer::State {

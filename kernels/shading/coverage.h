@@ -5,6 +5,11 @@
 #include "common/random.h"
 #include "shading/surface.h"
 
+/* Names the edge-th ray of a path for the alpha test. The shadow ray from its end has the number after. */
+TRIAD_FUNCTION uint coverage_ray(const Sampler* sampler, uint edge) {
+    return random_mix(sampler->key0 ^ sampler->index_reversed) + 2u * edge;
+}
+
 #if TRIAD_ALPHA_TEST
 typedef struct Coverage {
     const Scene* scene;

@@ -165,24 +165,5 @@ TRIAD_FUNCTION_ONCE Vec3 photon_gather(const Scene* scene, const PhotonQuery* qu
     return vec3_scale(vec3_make((float)sums[0], (float)sums[1], (float)sums[2]), 1.0f / scene->frame->quanta);
 }
 
-/* Of a path, at the end of its edge-th edge: specular: mirrors and glass alone so far. */
-TRIAD_FUNCTION Vec3 path_gather(const Scene* scene, const Surface* s, Vec3 ng, const VertexBsdf* v, uint edge,
-                                int specular, float wavelength) {
-    global const Frame* frame = scene->frame;
-    const uint use = frame->photon_map;
-    if (use == PHOTON_MAP_PROGRESSIVE && edge == 1u) return vec3_splat(0.0f); /* splatted: photon/photon.cl */
-    PhotonQuery q;
-    q.position = s->position;
-    q.normal = ng;
-    q.most_edges = frame->max_depth == 0u ? 0u : frame->max_depth - edge;
-    q.which = use == PHOTON_MAP_VISUALISED                  ? PHOTON_INDIRECT
-              : use == PHOTON_MAP_FINAL_GATHER && !specular ? PHOTON_ANY
-                                                            : PHOTON_CAUSTIC;
-    q.radius = specular && use != PHOTON_MAP_VISUALISED ? scene->photon_map->sharp_radius
-                                                        : scene->photon_map->radius;
-    q.wavelength = wavelength;
-    return photon_gather(scene, &q, v);
-}
-
 #endif
 #endif

@@ -7,13 +7,13 @@
 #include "shading/camera.h"
 #include "shading/ray_filter.h"
 
-/* Film position of work-item i of the crop: tiles of 8 x 8 pixels, so that neighbours in a work-group are
+/* Film position of work-item i of the crop: tile by tile, so that neighbours in a work-group are
  * neighbours in the picture. Outside the crop (ragged edges): returns 0. */
 TRIAD_FUNCTION int sample_pixel(const uint crop[4], uint i, uint* x, uint* y) {
-    const uint tiles = (crop[2] + 7u) / 8u;
-    const uint tile = i / 64u, in_tile = i % 64u;
-    *x = (tile % tiles) * 8u + in_tile % 8u;
-    *y = (tile / tiles) * 8u + in_tile / 8u;
+    const uint tiles = (crop[2] + FILM_TILE - 1u) / FILM_TILE;
+    const uint tile = i / FILM_TILE_PIXELS, in_tile = i % FILM_TILE_PIXELS;
+    *x = tile % tiles * FILM_TILE + in_tile % FILM_TILE;
+    *y = tile / tiles * FILM_TILE + in_tile / FILM_TILE;
     return *x < crop[2] && *y < crop[3];
 }
 

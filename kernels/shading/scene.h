@@ -1,58 +1,15 @@
-/* The scene as kernels see it: one private struct of the global arrays, so that functions take one pointer
- * (it inlines away). SCENE_PARAMETERS is the order in which the host binds them (host/render/pack.cpp,
- * PackedScene::arguments). */
+/* The scene as kernels see it: one private struct of the global arrays of arguments.h, so that functions take
+ * one pointer (it inlines away). */
 #ifndef TRIAD_SHADING_SCENE_H
 #define TRIAD_SHADING_SCENE_H
 
+#include "common/parameters.h"
 #include "common/vector.h"
 
 typedef struct Scene {
-    global const Frame* frame;
-    global const BvhNode* nodes;
-    global const TriangleBlock* blocks;
-    global const Instance* instances;
-    global const Triangle* triangles;
-    global const Geometry* geometries;
-    global const float* normals; /* float[3] per vertex */
-    global const float* tangents;
-    global const float* uvs;
-    global const float* colours;
-    global const Material* materials;
-    global const TextureUse* texture_uses;
-    global const Texture* textures;
-    global const uint* texels;
-    global const float* srgb;   /* decoded value of every byte of an sRGB texel */
-    global const float* albedo; /* directional-albedo tables of shading/bsdf.h */
-    global const Light* lights;
-    global const uint* light_cdf;     /* tree of shape frame->lights */
-    global const uint* env_texels;    /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */
-    global const uint* env_rows;      /* tree of shape environment.rows */
-    global const ushort* env_columns; /* trees of shape environment.columns */
-    global const float* env_cosines;  /* height + 1: cosine of the polar angle of the rows' borders */
-    global const Spectrum* spectrum;
-    global const float* indices;    /* tables of (n, its change to the next row), SPECTRUM_ROWS each */
-    global const float* ray_filter; /* tables of shape frame->ray_filter */
-    global const PhotonMap* photon_map;
-    global const Photon* photons;   /* bucket by bucket */
-    global const uint* photon_ends; /* of the buckets */
+    SCENE_LIST(PARAMETER_MEMBER, PARAMETER_MEMBER)
 } Scene;
 
-#define SCENE_PARAMETERS                                                                                    \
-    global const Frame *frame, global const BvhNode *nodes, global const TriangleBlock *blocks,             \
-        global const Instance *instances, global const Triangle *triangles,                                 \
-        global const Geometry *geometries, global const float *normals, global const float *tangents,       \
-        global const float *uvs, global const float *colours, global const Material *materials,             \
-        global const TextureUse *texture_uses, global const Texture *textures, global const uint *texels,   \
-        global const float *srgb, global const float *albedo, global const Light *lights,                   \
-        global const uint *light_cdf, global const uint *env_texels, global const uint *env_rows,           \
-        global const ushort *env_columns, global const float *env_cosines, global const Spectrum *spectrum, \
-        global const float *indices, global const float *ray_filter, global const PhotonMap *photon_map,    \
-        global const Photon *photons, global const uint *photon_ends
-
-#define SCENE_ARGUMENTS                                                                                     \
-    frame, nodes, blocks, instances, triangles, geometries, normals, tangents, uvs, colours, materials,     \
-        texture_uses, textures, texels, srgb, albedo, lights, light_cdf, env_texels, env_rows, env_columns, \
-        env_cosines, spectrum, indices, ray_filter, photon_map, photons, photon_ends
 #define SCENE_FROM_PARAMETERS \
     { SCENE_ARGUMENTS }
 

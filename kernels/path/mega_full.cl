@@ -1,4 +1,4 @@
 /* The path tracer with four wavelengths per path instead of RGB: --spectral full. */
 #define TRIAD_HERO 1
 
-#include "shading/path.cl"
+#include "path/mega.cl"

@@ -1,13 +1,13 @@
 /* The colours of a path: RGB, with one wavelength from some vertex on, or (TRIAD_HERO) four wavelengths. What
  * surfaces and lights say in RGB is turned into them here, and what a path found back into RGB for the film.
  */
-#ifndef TRIAD_SHADING_PATH_COLOUR_H
-#define TRIAD_SHADING_PATH_COLOUR_H
+#ifndef TRIAD_PATH_COLOUR_H
+#define TRIAD_PATH_COLOUR_H
 
 #include "common/colour.h"
 #include "common/random.h"
 #include "common/spectrum.h"
-#include "shading/vertex_bsdf.h"
+#include "shading/vertex.h"
 
 #define PATH_WAVELENGTH_SET 2u /* of random numbers: the samples of a pixel share the spectrum out evenly */
 /* That a path is followed with from its first dispersive surface on. Three have a quarter of the error of one
@@ -74,22 +74,6 @@ TRIAD_FUNCTION void path_end_others(PathColour* c, Colour* throughput) {
     c->share = vec4_make(4.0f, 0.0f, 0.0f, 0.0f);
 }
 
-/* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
-TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, const PathColour* c, const Surface* s, Vec3 wo,
-                                          Vec3 ng, int back, Bodies bodies, Bodies beyond, Vec3 wi,
-                                          Vec4* densities) {
-    const float wavelengths[4] = {c->wavelengths.x, c->wavelengths.y, c->wavelengths.z, c->wavelengths.w};
-    float value[4], density[4];
-    for (uint i = 0u; i < 4u; ++i) {
-        const VertexBsdf v = vertex_bsdf(scene, s, wo, ng, back, bodies, beyond, wavelengths[i]);
-        density[i] = 0.0f;
-        const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
-        value[i] = i == 0u ? f.x : i == 1u ? f.y : i == 2u ? f.z : f.w;
-    }
-    *densities = VEC4_OF(density);
-    return VEC4_OF(value);
-}
-
 /* The density of what was drawn, over all choices of the first wavelength. */
 TRIAD_FUNCTION float path_mean_density(const PathColour* c, Vec4 densities) {
     return colour_average(vec4_mul(c->share, densities));
@@ -126,13 +110,21 @@ TRIAD_FUNCTION void path_draw_wavelength(PathColour* c, const Scene* scene, cons
 }
 #endif
 
-TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+/* All wavelengths together. */
+TRIAD_FUNCTION PathColour path_colour_white(void) {
     PathColour c;
     c.wavelength = 0.0f;
 #if TRIAD_DISPERSION
     c.filter = vec3_splat(1.0f);
     c.before = vec3_splat(0.0f);
     c.share = 1.0f;
+#endif
+    return c;
+}
+
+TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* sampler) {
+    PathColour c = path_colour_white();
+#if TRIAD_DISPERSION
     Vec3 nothing = vec3_splat(0.0f);
     if (scene->frame->wavelength_from_camera)
         path_take_wavelength(&c, scene, sampler_2d(sampler, PATH_WAVELENGTH_SET).x, 1.0f, &nothing);

@@ -1,0 +1,24 @@
+/* What the lists of arguments.h become in a kernel: KIND_PARAMETERS of declarations, KIND_ARGUMENTS of names,
+ * and struct members. */
+#ifndef TRIAD_COMMON_PARAMETERS_H
+#define TRIAD_COMMON_PARAMETERS_H
+
+#include "common/language.h"
+
+#include "arguments.h"
+
+#define PARAMETER_FIRST(type, name) global const type* name
+#define PARAMETER_ARRAY(type, name) , global const type* name
+#define PARAMETER_OWNED(type, name) , global type* name
+#define PARAMETER_SHARED(type, name) , volatile global type* name
+#define PARAMETER_VALUE(type, name) , type name
+
+#define PARAMETER_FIRST_NAME(type, name) name
+#define PARAMETER_NAME(type, name) , name
+
+#define PARAMETER_MEMBER(type, name) global const type* name;
+
+#define SCENE_PARAMETERS SCENE_LIST(PARAMETER_FIRST, PARAMETER_ARRAY)
+#define SCENE_ARGUMENTS SCENE_LIST(PARAMETER_FIRST_NAME, PARAMETER_NAME)
+
+#endif

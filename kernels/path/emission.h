@@ -1,0 +1,78 @@
+/* Stages `miss` and `emission`: the light that a path runs into. */
+#ifndef TRIAD_PATH_EMISSION_H
+#define TRIAD_PATH_EMISSION_H
+
+#include "path/gather.h"
+#include "path/surface.h"
+#include "shading/light.h"
+
+TRIAD_FUNCTION void path_finds(PathState* path, Colour found, Tally* tally) {
+    path->radiance += found;
+    record_found(tally, path, found);
+}
+
+/* The path leaves the scene: it finds the environment, or nothing at all, which is alpha. */
+TRIAD_FUNCTION void path_miss(const Scene* scene, PathState* path, const Hit* hit, Tally* tally) {
+    global const Frame* frame = scene->frame;
+    const float3 direction = path_direction(path);
+    (void)hit;
+    record_vertex(tally, path, direction, hit, TRIAD_NONE);
+    record_end(tally, PATH_LEFT_SCENE);
+    if ((path->traits & PATH_STRAIGHT) && frame->transparent) {
+        /* weights above 1 make up for paths that ended in a surface: no clamping */
+        path->alpha -= path_share(&path->colours) * colour_average(path->throughput) / path_body_scale(path);
+        return;
+    }
+    float light_pdf;
+    const Colour sky = path_colour(&path->colours, environment_radiance(scene, direction, &light_pdf));
+    float weight = path->pdf > 0.0f ? power_heuristic(light_pdf / path->pdf) : 1.0f;
+    if (frame->environment.photons && path_leaves_to_photons(scene, path)) weight = 0.0f;
+    path_finds(path, path->throughput * sky * weight, tally);
+}
+
+/* An unlit surface shows its colour to the camera, directly or in mirrors, and is black to all else; 1: it is
+ * one, and the path ends. */
+TRIAD_FUNCTION int path_unlit(const Scene* scene, PathState* path, const Vertex* vertex, Tally* tally) {
+#if TRIAD_UNLIT
+    const Surface* s = &vertex->surface;
+    if (!(scene->materials[s->material].flags & MATERIAL_UNLIT)) return 0;
+    path_finds(path,
+               path->traits & PATH_SPECULAR ? path->throughput * path_colour(&path->colours, s->base_colour)
+                                            : (Colour)(0.0f),
+               tally);
+    record_end(tally, PATH_UNLIT);
+    return 1;
+#else
+    (void)scene, (void)path, (void)vertex, (void)tally;
+    return 0;
+#endif
+}
+
+/* What the surface emits along the edge. */
+TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Vertex* vertex, Tally* tally) {
+#if TRIAD_TRIANGLE_LIGHTS
+    const Surface* s = &vertex->surface;
+    global const Geometry* geometry = scene->geometries + s->geometry;
+    global const Material* material = scene->materials + s->material;
+    if (path_is_back(path) || geometry->first_light == TRIAD_NONE ||
+        (vertex->back && !(material->flags & MATERIAL_DOUBLE_SIDED)))
+        return;
+    global const Light* found =
+        scene->lights + geometry->first_light + vertex->hit.primitive - geometry->first_triangle;
+    float weight = 1.0f;
+    if ((found->flags & LIGHT_PHOTONS) && path_leaves_to_photons(scene, path)) weight = 0.0f;
+    if (path->pdf > 0.0f) {
+        const Light light = *found;
+        weight = power_heuristic(
+            1.0f / (path->pdf * light_triangle_inverse_pdf(&light, 1.0f / (vertex->hit.t * vertex->hit.t),
+                                                           math_dot(vertex->ng, vertex->wo))));
+    }
+    const Colour radiance =
+        path_light(scene, &path->colours, found->flags, surface_emission(scene, material, s->uv0, s->uv1));
+    path_finds(path, path->throughput * radiance * weight, tally);
+#else
+    (void)scene, (void)path, (void)vertex, (void)tally;
+#endif
+}
+
+#endif

@@ -1,0 +1,43 @@
+/* What the camera's rays meet first, for the picture's feature channels. */
+#include "common/language.h"
+
+#include "path/rays.h"
+#include "path/start.h"
+#include "path/surface.h"
+
+/* Means over samples [0, sample_count) of what the camera rays of the same samples meet first: albedo (3
+ * floats per pixel), shading normal (3, world), position (3, rebased), depth along the view (1). Over the
+ * samples that hit. */
+kernel void trace_features(SCENE_PARAMETERS TRACE_FEATURES_LIST(PARAMETER_OWNED, PARAMETER_VALUE)) {
+    const size_t item = get_global_id(0);
+    if (item >= pixel_count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Frame local_frame = *frame;
+    uint x, y;
+    if (!sample_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
+    const size_t pixel = (size_t)y * local_frame.crop[2] + x;
+    const Camera camera = local_frame.camera;
+    const float3 eye = (float3)(camera.origin[0], camera.origin[1], camera.origin[2]);
+    const float3 forward = (float3)(camera.forward[0], camera.forward[1], camera.forward[2]);
+    float3 albedo_sum = (float3)(0.0f), normal_sum = (float3)(0.0f), position_sum = (float3)(0.0f);
+    float depth_sum = 0.0f;
+    uint hits = 0u;
+    Tally tally = tally_start();
+    for (uint i = 0u; i < sample_count; ++i) {
+        const CameraSample sample = camera_sample(&scene, &local_frame, x, y, i);
+        PathState path = path_start(&scene, &sample);
+        const Hit hit = path_closest(&scene, &path, &tally);
+        if (hit.primitive == TRIAD_NONE) continue;
+        const Vertex v = path_surface(&scene, &path, &hit, &tally);
+        albedo_sum += v.surface.base_colour;
+        normal_sum += v.back ? -v.surface.shading_normal : v.surface.shading_normal;
+        position_sum += v.surface.position;
+        depth_sum += math_dot(v.surface.position - eye, forward);
+        ++hits;
+    }
+    const float scale = hits ? 1.0f / (float)hits : 0.0f;
+    vstore3(albedo_sum * (1.0f / (float)sample_count), pixel, albedos);
+    vstore3(normal_sum * scale, pixel, normal_means);
+    vstore3(position_sum * scale, pixel, position_means);
+    depths[pixel] = depth_sum * scale;
+}

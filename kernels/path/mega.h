@@ -1,0 +1,45 @@
+/* The driver `mega`: a path is followed from the camera to its end in one loop over the stages. */
+#ifndef TRIAD_PATH_MEGA_H
+#define TRIAD_PATH_MEGA_H
+
+#include "path/connect.h"
+#include "path/emission.h"
+#include "path/fork.h"
+#include "path/rays.h"
+#include "path/survive.h"
+
+/* An edge and the vertex at its end. 0: the path ends there. */
+TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally* tally) {
+    const SamplerBlock u = path_numbers(path);
+    connect_prefetch(scene, &u);
+    const Hit hit = path_closest(scene, path, tally);
+    if (hit.primitive == TRIAD_NONE) {
+        path_miss(scene, path, &hit, tally);
+        return 0;
+    }
+    Vertex vertex = path_surface(scene, path, &hit, tally);
+    if (path_unlit(scene, path, &vertex, tally)) return 0;
+    path_emission(scene, path, &vertex, tally);
+    if (path_is_longest(scene, path, tally)) return 0;
+
+    path_fork(scene, path, &vertex);
+    const VertexBsdf bsdf = path_bsdf(scene, path, &vertex);
+    path_gather(scene, path, &vertex, &bsdf);
+
+    PendingLight light;
+    if (path_connect(scene, path, &vertex, &bsdf, &u, &light) &&
+        !path_occluded(scene, path, light.ray, tally))
+        path_arrive(scene, path, &light, tally);
+
+    Scatter scatter;
+    return path_scatter(scene, path, &vertex, &bsdf, &u, &scatter, tally) &&
+           path_survive(scene, path, &vertex, &scatter, &u, tally);
+}
+
+/* To the end of a path that has started. */
+TRIAD_FUNCTION_PER_CALL void mega_follow(const Scene* scene, PathState* path, Tally* tally) {
+    while (mega_edge(scene, path, tally) || path_next_wavelength(path)) {
+    }
+}
+
+#endif

@@ -1,0 +1,42 @@
+/* Photons. What the camera sees directly of what they bring is splatted to the film; where paths meet it
+ * later, they gather it from a map (photon/map.cl, shading/photon_map.h). Paths themselves leave this light
+ * out (path/emission.h). One work-item is one photon. */
+#include "common/language.h"
+
+#include "path/photon.h"
+
+#define TRACE_PHOTONS_PARAMETERS \
+    SCENE_PARAMETERS TRACE_PHOTONS_LIST(PARAMETER_ARRAY, PARAMETER_OWNED, PARAMETER_SHARED, PARAMETER_VALUE)
+#define TRACE_PHOTONS_ARGUMENTS \
+    SCENE_ARGUMENTS TRACE_PHOTONS_LIST(PARAMETER_NAME, PARAMETER_NAME, PARAMETER_NAME, PARAMETER_NAME)
+
+TRIAD_FUNCTION_ONCE void trace_photon(TRACE_PHOTONS_PARAMETERS, size_t item) {
+    if (item >= photon_count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    /* the halves of the film take turns as in sample_name() */
+    const uint bins = frame->bins[0] * frame->bins[1];
+    const ulong sample = ((ulong)sample_high << 32) | sample_low, round = sample / bins;
+    const uint half_index = (uint)(round & 1ul);
+    const ulong index =
+        ((round >> 1) * bins + sample % bins) * photon_frame->count + first_photon + (uint)item;
+    const SplatFilm film = {sums, half_sums, tiles, first_pixel, pixels, half_index};
+    Tally tally = tally_start();
+    PhotonState photon = photon_start(&scene, photon_frame, photon_lights, casters, index, half_index);
+    if (max_abs3(photon.source.power) > 0.0f)
+        while (photon_edge(&scene, photon_frame, &film, share, &photon, &tally)) {
+        }
+#if TRIAD_GATHER
+    if (frame->photon_map) {
+        for (uint c = 0u; c < 3u; ++c) photon.kept.power[c] *= convert_float(photon.landings);
+        landed[first_photon + item] = photon.kept;
+    }
+#else
+    (void)landed;
+#endif
+    tally_add(counters, &tally);
+}
+
+/* Traces photons of a sample of the picture, for a piece of the film and for the map. */
+kernel void trace_photons(TRACE_PHOTONS_PARAMETERS) {
+    trace_photon(TRACE_PHOTONS_ARGUMENTS, get_global_id(0));
+}

@@ -1,0 +1,58 @@
+/* Rays of paths against the scene. */
+#ifndef TRIAD_PATH_RAYS_H
+#define TRIAD_PATH_RAYS_H
+
+#include "path/record.h"
+#include "shading/coverage.h"
+#include "traversal/traverse.h"
+
+/* name: of the ray, by which the alpha test decides: coverage_ray(). */
+TRIAD_FUNCTION Hit rays_closest(const Scene* scene, Ray ray, uint name, Tally* tally) {
+    Traversal traversal = traversal_make(scene->nodes, scene->blocks, scene->instances, scene->frame->root);
+#if TRIAD_ALPHA_TEST
+    const Coverage coverage = {scene, name};
+    traversal.context = &coverage;
+#else
+    (void)name;
+#endif
+    ++tally->rays;
+    return traverse_closest(&traversal, ray);
+}
+
+TRIAD_FUNCTION int rays_occluded(const Scene* scene, Ray ray, uint name, Tally* tally) {
+    Traversal traversal = traversal_make(scene->nodes, scene->blocks, scene->instances, scene->frame->root);
+#if TRIAD_ALPHA_TEST
+    const Coverage coverage = {scene, name};
+    traversal.context = &coverage;
+#else
+    (void)name;
+#endif
+    ++tally->rays;
+    return traverse_occluded(&traversal, ray);
+}
+
+/* Of the edge of a path. */
+TRIAD_FUNCTION uint path_ray_name(const PathState* path) {
+#if TRIAD_ALPHA_TEST
+    const Sampler s = path_sampler(path);
+    return coverage_ray(&s, path->edge);
+#else
+    (void)path;
+    return 0u;
+#endif
+}
+
+/* Where the path's edge ends. */
+TRIAD_FUNCTION Hit path_closest(const Scene* scene, const PathState* path, Tally* tally) {
+#if PATH_FORKS
+    if (path_is_back(path)) return path->fork.hit;
+#endif
+    return rays_closest(scene, path->ray, path_ray_name(path), tally);
+}
+
+/* Whether the shadow ray of the vertex at its end meets anything. */
+TRIAD_FUNCTION int path_occluded(const Scene* scene, const PathState* path, Ray shadow, Tally* tally) {
+    return rays_occluded(scene, shadow, path_ray_name(path) + 1u, tally);
+}
+
+#endif

@@ -1,0 +1,29 @@
+/* The paths of one pixel, vertex by vertex: the path tracer itself, compiled so that it writes down what it
+ * does. Bits are those of trace_paths. */
+#define TRIAD_RECORD 1
+
+#include "common/language.h"
+
+#include "path/add.h"
+#include "path/mega.h"
+
+/* One work-item is one sample. */
+kernel void record_paths(SCENE_PARAMETERS RECORD_PATHS_LIST(PARAMETER_OWNED, PARAMETER_VALUE)) {
+    const size_t item = get_global_id(0);
+    if (item >= sample_count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Frame local_frame = *frame;
+    const ulong first = ((ulong)first_sample_high << 32) | first_sample_low;
+    const CameraSample sample = camera_sample(&scene, &local_frame, x, y, first + item);
+    PathState path = path_start(&scene, &sample);
+    Tally tally = tally_start();
+    tally.path = vertices + item * PATH_VERTICES;
+    mega_follow(&scene, &path, &tally);
+    PathRecord record;
+    vstore4(path_value(&path, sample.weight), 0, record.value);
+    record.vertices = tally.vertices;
+    record.rays = tally.rays;
+    record.bin = sample.name.bin;
+    record.half_index = sample.name.half_index;
+    records[item] = record;
+}

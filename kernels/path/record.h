@@ -1,0 +1,96 @@
+/* What paths leave behind beside their light: counts, and, in record.cl alone, what they did at every vertex.
+ */
+#ifndef TRIAD_PATH_RECORD_H
+#define TRIAD_PATH_RECORD_H
+
+#include "common/film.h"
+#include "path/state.h"
+#include "shading/environment.h"
+
+#ifndef TRIAD_RECORD
+#define TRIAD_RECORD 0
+#endif
+
+/* What one work-item counts, in registers, for COUNTER_*. */
+typedef struct Tally {
+    uint rays, not_finite, saturated, truncated, cut_energy;
+#if TRIAD_RECORD
+    global PathVertex* path; /* PATH_VERTICES of them */
+    uint vertices;
+#endif
+} Tally;
+
+TRIAD_FUNCTION Tally tally_start(void) {
+    Tally t;
+    t.rays = t.not_finite = t.saturated = t.truncated = t.cut_energy = 0u;
+    return t;
+}
+
+TRIAD_FUNCTION void tally_add(volatile global uint* counters, const Tally* t) {
+    counter_add(counters, COUNTER_RAYS, t->rays);
+    counter_add(counters, COUNTER_NOT_FINITE, t->not_finite);
+    counter_add(counters, COUNTER_SATURATED, t->saturated);
+    counter_add(counters, COUNTER_TRUNCATED, t->truncated);
+    counter_add(counters, COUNTER_CUT_ENERGY, t->cut_energy);
+}
+
+#if TRIAD_RECORD
+
+/* The present vertex. The last one kept stands for all later ones. */
+TRIAD_FUNCTION global PathVertex* record_at(const Tally* t) {
+    return t->path + min(t->vertices, (uint)PATH_VERTICES) - 1u;
+}
+
+/* The path's edge ended here: the first call for a vertex. */
+TRIAD_FUNCTION void record_vertex(Tally* t, const PathState* path, float3 position, const Hit* hit,
+                                  uint material) {
+    ++t->vertices;
+    global PathVertex* v = record_at(t);
+    if (t->vertices <= PATH_VERTICES) {
+        vstore3((float3)(0.0f), 0, v->found);
+        vstore3((float3)(0.0f), 0, v->direct);
+        v->light = TRIAD_NONE;
+    }
+    vstore3(position, 0, v->position);
+    vstore3((float3)(0.0f), 0, v->throughput);
+    v->primitive = hit->primitive;
+    v->instance = hit->instance;
+    v->material = material;
+    v->event = BSDF_NONE;
+    v->end = PATH_GOES_ON;
+    v->edge = path->edge;
+    v->wavelength = path_is_back(path) ? 0.0f : path_wavelength(&path->colours);
+}
+
+TRIAD_FUNCTION void record_end(const Tally* t, uint why) { record_at(t)->end = why; }
+
+TRIAD_FUNCTION void record_found(const Tally* t, const PathState* path, Colour radiance) {
+    global PathVertex* v = record_at(t);
+    vstore3(vload3(0, v->found) + path_found(&path->colours, radiance), 0, v->found);
+}
+
+/* From the light that the vertex has chosen. */
+TRIAD_FUNCTION void record_direct(const Tally* t, const Scene* scene, const PathState* path,
+                                  Colour radiance) {
+    global PathVertex* v = record_at(t);
+    float unused;
+    v->light = cdf_find(&scene->frame->lights, scene->light_cdf, path_numbers(path).x.s2, &unused, &unused);
+    vstore3(vload3(0, v->direct) + path_found(&path->colours, radiance), 0, v->direct);
+}
+
+TRIAD_FUNCTION void record_event(const Tally* t, const PathState* path, uint event) {
+    global PathVertex* v = record_at(t);
+    v->end = PATH_GOES_ON;
+    v->event = event;
+    vstore3(path_found(&path->colours, path->throughput), 0, v->throughput);
+}
+
+#else
+#define record_vertex(tally, path, position, hit, material) ((void)(tally))
+#define record_end(tally, why) ((void)(tally))
+#define record_found(tally, path, radiance) ((void)(tally))
+#define record_direct(tally, scene, path, radiance) ((void)(tally))
+#define record_event(tally, path, event) ((void)(tally))
+#endif
+
+#endif

@@ -1,0 +1,4 @@
+/* record.cl for the paths of mega_full.cl. */
+#define TRIAD_HERO 1
+
+#include "path/record.cl"

@@ -1,0 +1,39 @@
+/* Stage `survive`: whether a path goes on. */
+#ifndef TRIAD_PATH_SURVIVE_H
+#define TRIAD_PATH_SURVIVE_H
+
+#include "path/scatter.h"
+
+/* From this edge on roulette never lets a path survive for certain, so that none is endless (a ray caught in
+ * clear glass). */
+#define ROULETTE_ALWAYS_FROM 64u
+#define ROULETTE_ALWAYS 0.999f
+
+/* Whether this edge is the last one that Frame.max_depth allows. */
+TRIAD_FUNCTION int path_is_longest(const Scene* scene, const PathState* path, Tally* tally) {
+    if (path->edge != scene->frame->max_depth) return 0;
+    ++tally->truncated;
+    tally->cut_energy +=
+        (uint)(math_min(path_share(&path->colours) * colour_luminance(path->throughput), 65535.0f) *
+               65536.0f);
+    record_end(tally, PATH_LONGEST);
+    return 1;
+}
+
+/* Russian roulette; who survives goes on with the next edge. */
+TRIAD_FUNCTION int path_survive(const Scene* scene, PathState* path, const Vertex* vertex,
+                                const Scatter* scatter, const SamplerBlock* u, Tally* tally) {
+    const float most = path->edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
+    const float survive =
+        math_min(colour_max(path->throughput) * scene->frame->roulette / path_body_scale(path), most);
+    record_end(tally, PATH_ROULETTE);
+    if (!(random_float(u->y.s1) < survive)) return 0;
+    path->throughput *= 1.0f / survive;
+    record_event(tally, path, scatter->sample.event);
+    path->ray = vertex_spawn(&vertex->surface, scatter->side > 0.0f ? vertex->ng : -vertex->ng, &vertex->hit,
+                             scatter->direction);
+    ++path->edge;
+    return 1;
+}
+
+#endif
