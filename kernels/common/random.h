@@ -150,7 +150,11 @@ TRIAD_FUNCTION SamplerBlock sampler_block(const Sampler* s, uint block) {
     b.set[0] = uvec2_make(x.s0, y.s0), b.set[1] = uvec2_make(x.s1, y.s1);
     b.set[2] = uvec2_make(x.s2, y.s2), b.set[3] = uvec2_make(x.s3, y.s3);
 #else
-    for (uint i = 0u; i < 4u; ++i) sampler_sobol(s, 4u * block + i, &b.set[i].x, &b.set[i].y);
+    for (uint i = 0u; i < 4u; ++i) {
+        uint x, y;
+        sampler_sobol(s, 4u * block + i, &x, &y);
+        b.set[i] = uvec2_make(x, y);
+    }
 #endif
     return b;
 }
