@@ -7,12 +7,24 @@
 #include "common/language.h"
 #include "common/math.h"
 
-typedef float2 Vec2;
-typedef float3 Vec3;
-typedef float4 Vec4;
-typedef uint2 UVec2;
-typedef uint4 UVec4;
-typedef int3 IVec3;
+typedef struct Vec2 {
+    float x, y;
+} Vec2;
+typedef struct Vec3 {
+    float x, y, z;
+} Vec3;
+typedef struct Vec4 {
+    float x, y, z, w;
+} Vec4;
+typedef struct UVec2 {
+    uint x, y;
+} UVec2;
+typedef struct UVec4 {
+    uint x, y, z, w;
+} UVec4;
+typedef struct IVec3 {
+    int x, y, z;
+} IVec3;
 
 TRIAD_FUNCTION Vec2 vec2_make(float x, float y) {
     Vec2 v;
@@ -154,17 +166,5 @@ TRIAD_FUNCTION float vec3_largest(Vec3 v) { return math_max(v.x, math_max(v.y, v
 TRIAD_FUNCTION float vec3_largest_abs(Vec3 v) { return vec3_largest(vec3_abs(v)); }
 /* Of linear Rec.709. */
 TRIAD_FUNCTION float vec3_luminance(Vec3 v) { return fma(v.x, 0.2126f, fma(v.y, 0.7152f, v.z * 0.0722f)); }
-
-/* Names of before, until path.cl and photon.cl use those above. */
-#define math_dot vec3_dot
-#define math_cross vec3_cross
-#define math_length vec3_length
-#define math_normalize vec3_normalize
-#define math_reflect vec3_reflect
-#define math_average vec3_average
-#define math_max3 vec3_largest
-#define max_abs3 vec3_largest_abs
-#define math_luminance vec3_luminance
-#define colour_max colour_largest
 
 #endif
