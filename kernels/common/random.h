@@ -150,11 +150,11 @@ TRIAD_FUNCTION SamplerBlock sampler_block(const Sampler* s, uint block) {
     b.set[0] = uvec2_make(x.s0, y.s0), b.set[1] = uvec2_make(x.s1, y.s1);
     b.set[2] = uvec2_make(x.s2, y.s2), b.set[3] = uvec2_make(x.s3, y.s3);
 #else
-    for (uint i = 0u; i < 4u; ++i) {
-        uint x, y;
-        sampler_sobol(s, 4u * block + i, &x, &y);
-        b.set[i] = uvec2_make(x, y);
-    }
+    /* no loop: only the innermost is vectorised, and that is to be the one over items */
+    sampler_sobol(s, 4u * block, &b.set[0].x, &b.set[0].y);
+    sampler_sobol(s, 4u * block + 1u, &b.set[1].x, &b.set[1].y);
+    sampler_sobol(s, 4u * block + 2u, &b.set[2].x, &b.set[2].y);
+    sampler_sobol(s, 4u * block + 3u, &b.set[3].x, &b.set[3].y);
 #endif
     return b;
 }

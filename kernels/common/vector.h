@@ -7,24 +7,32 @@
 #include "common/language.h"
 #include "common/math.h"
 
+/* x86-64's convention for calls packs two floats of a small struct into one vector, and what is left of that
+ * after inlining stops the vectoriser. Structs beyond 16 bytes go through memory, which dissolves. */
+#if defined(__x86_64__) && !TRIAD_ITEM_LANES
+#define VECTOR_ALIGNMENT __attribute__((aligned(32)))
+#else
+#define VECTOR_ALIGNMENT
+#endif
+
 typedef struct Vec2 {
     float x, y;
-} Vec2;
+} VECTOR_ALIGNMENT Vec2;
 typedef struct Vec3 {
     float x, y, z;
-} Vec3;
+} VECTOR_ALIGNMENT Vec3;
 typedef struct Vec4 {
     float x, y, z, w;
-} Vec4;
+} VECTOR_ALIGNMENT Vec4;
 typedef struct UVec2 {
     uint x, y;
-} UVec2;
+} VECTOR_ALIGNMENT UVec2;
 typedef struct UVec4 {
     uint x, y, z, w;
-} UVec4;
+} VECTOR_ALIGNMENT UVec4;
 typedef struct IVec3 {
     int x, y, z;
-} IVec3;
+} VECTOR_ALIGNMENT IVec3;
 
 TRIAD_FUNCTION Vec2 vec2_make(float x, float y) {
     Vec2 v;

@@ -26,7 +26,7 @@ TRIAD_FUNCTION uint cdf_find(global const CdfShape* shape, global const uint* tr
     const uint levels = shape->levels;
     uint i = 0u;
     uint first = 0u;
-    for (uint level = 0u; level < levels; ++level) {
+    TRIAD_FOR(level, levels, CDF_LEVELS) {
         first = shape->first[level];
         i = 8u * i + cdf_below(tree + first + 8u * i, u);
     }
@@ -111,9 +111,9 @@ TRIAD_FUNCTION global const ushort* columns_level(const Scene* scene, uint row, 
 /* The child that holds the share u / 2^16, after some levels of a row's tree. */
 TRIAD_FUNCTION uint columns_descend(const Scene* scene, uint row, uint u, uint levels) {
     uint i = 0u;
-    for (uint level = 0u; level < levels; ++level)
-        i = COLUMNS_FANOUT * i +
-            columns_below(columns_level(scene, row, level) + COLUMNS_FANOUT * i, (ushort)(u >> 16));
+    TRIAD_FOR(level, levels, COLUMNS_LEVELS)
+    i = COLUMNS_FANOUT * i +
+        columns_below(columns_level(scene, row, level) + COLUMNS_FANOUT * i, (ushort)(u >> 16));
     return i;
 }
 
