@@ -1,6 +1,6 @@
 /* fma, fabs, floor, ceil, sqrt and copysign as instructions: the compiler's own builtins where it knows them.
  * OpenCL's are calls in some drivers (PoCL 6), which cost nanoseconds and keep loops over work-items from
- * being vectorised. Bits are the same (`triad check`, M3). Where all operands are of one type they take
+ * being vectorised. Bits are the same (`triad check`, M11). Where all operands are of one type they take
  * vectors too, except copysign and sqrt with compilers that have them for scalars alone.
  *
  * Some drivers have macros of these names. min, max and clamp are ternaries of math.h, and conversions are
