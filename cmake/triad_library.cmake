@@ -1,16 +1,26 @@
-# triad_library(NAME [WALLS lib...] [EXTERNAL lib...])
-# One folder, one static library triad_NAME. WALLS are the Triad libraries below it: headers of those may appear in its
-# own headers, so they are PUBLIC; EXTERNAL packages stay PRIVATE, so that no other folder can include them by accident.
+# A root for includes that holds one folder alone: #include "NAME/..." finds what lies in FOLDER, and nothing else.
+function(triad_include_root target visibility name folder)
+  set(root ${PROJECT_BINARY_DIR}/include/${name})
+  file(MAKE_DIRECTORY ${root})
+  file(CREATE_LINK ${folder} ${root}/${name} SYMBOLIC)
+  target_include_directories(${target} ${visibility} ${root})
+endfunction()
+
+# triad_library(NAME [ROOMS room...] [EXTERNAL lib...])
+# One folder, one static library triad_NAME with an include root of its own. ROOMS are the folders whose headers this one
+# includes, itself or by their headers; links are private, so that an include of any other folder does not compile.
 function(triad_library name)
-  cmake_parse_arguments(arg "" "" "WALLS;EXTERNAL" ${ARGN})
+  cmake_parse_arguments(arg "" "" "ROOMS;EXTERNAL" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  if(sources)
-    add_library(triad_${name} STATIC ${sources})
-    target_link_libraries(triad_${name} PUBLIC triad_options ${arg_WALLS} PRIVATE ${arg_EXTERNAL})
-    target_include_directories(triad_${name} PUBLIC ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR})
-  else()
-    add_library(triad_${name} INTERFACE)
-    target_link_libraries(triad_${name} INTERFACE triad_options ${arg_WALLS})
-    target_include_directories(triad_${name} INTERFACE ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR})
-  endif()
+  list(FILTER sources EXCLUDE REGEX "/main.cpp$")
+  add_library(triad_${name} STATIC ${sources})
+  list(TRANSFORM arg_ROOMS PREPEND triad_ OUTPUT_VARIABLE rooms)
+  target_link_libraries(triad_${name} PRIVATE triad_options triad_border ${rooms} ${arg_EXTERNAL})
+  triad_include_root(triad_${name} PUBLIC ${name} ${CMAKE_CURRENT_SOURCE_DIR})
+endfunction()
+
+# triad_uses(TARGET ROOM...): the same for programs and tests.
+function(triad_uses target)
+  list(TRANSFORM ARGN PREPEND triad_ OUTPUT_VARIABLE rooms)
+  target_link_libraries(${target} PRIVATE triad_options triad_border ${rooms})
 endfunction()

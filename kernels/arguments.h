@@ -56,7 +56,7 @@
     VALUE(uint, first_pixel)
 
 /* path/record.cl: samples [first_sample, first_sample + sample_count) of the pixel (x, y) of the crop. */
-#define RECORD_PATHS_LIST(OWNED, VALUE)                      \
+#define RECORD_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)       \
     OWNED(PathRecord, records)                               \
     OWNED(PathVertex, vertices) /* PATH_VERTICES for each */ \
     VALUE(uint, x)                                           \
@@ -67,13 +67,13 @@
 
 /* path/features.cl: planes of the pixels [first_pixel, first_pixel + pixel_count), in the order of tiles,
  * from samples [0, sample_count). */
-#define TRACE_FEATURES_LIST(OWNED, VALUE)             \
-    OWNED(float, albedos)        /* [3] */            \
-    OWNED(float, normal_means)   /* [3], world */     \
-    OWNED(float, position_means) /* [3], rebased */   \
-    OWNED(float, depths)         /* along the view */ \
-    VALUE(uint, first_pixel)                          \
-    VALUE(uint, pixel_count)                          \
+#define TRACE_FEATURES_LIST(ARRAY, OWNED, SHARED, VALUE) \
+    OWNED(float, albedos)        /* [3] */               \
+    OWNED(float, normal_means)   /* [3], world */        \
+    OWNED(float, position_means) /* [3], rebased */      \
+    OWNED(float, depths)         /* along the view */    \
+    VALUE(uint, first_pixel)                             \
+    VALUE(uint, pixel_count)                             \
     VALUE(uint, sample_count)
 
 /* path/photons.cl: photons [first_photon, first_photon + photon_count) of a sample of the picture. */

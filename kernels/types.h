@@ -14,6 +14,7 @@
 #include <cstdint>
 namespace triad::dev { /* triad::Material is the scene's, triad::dev::Material the kernels' */
 using uint = std::uint32_t;
+using ushort = std::uint16_t;
 #define TRIAD_SIZE(type, bytes) static_assert(sizeof(type) == (bytes), #type " has " #bytes " bytes")
 #endif
 
@@ -145,6 +146,12 @@ TRIAD_SIZE(TextureUse, 32);
 #define MATERIAL_SOLID \
     8u /* KHR_materials_volume with thickness > 0: a closed body that refracts and absorbs */
 #define MATERIAL_UNLIT 16u
+
+/* Below this roughness squared a surface is a mirror: float directions cannot resolve it. */
+#define BSDF_SMOOTH_ALPHA 1e-3f
+/* A body whose index differs from 1 by less is taken as smooth: its roughness would blur what is behind by
+ * less than alpha / 100, and half vectors lose their meaning. */
+#define BSDF_SAME_INDEX 1e-2f
 
 /* glTF metallic-roughness with KHR ior, specular, transmission, volume, emissive_strength, unlit.
  * The *_use members index the TextureUse array or are TRIAD_NONE. Factors multiply textures, as the
@@ -369,14 +376,16 @@ TRIAD_SIZE(TileWork, 32);
 
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4
+#define FILM_MOST_BINS 16 /* of a pixel along an axis */
 
 /* Counters, as pairs of uints (low, high): what happened, over all launches. Index = 2 * COUNTER_x. */
 #define COUNTER_RAYS 0       /* closest-hit and occlusion rays */
 #define COUNTER_NOT_FINITE 1 /* samples dropped for a NaN or an infinity */
 #define COUNTER_SATURATED 2  /* samples that did not fit the fixed point */
 #define COUNTER_TRUNCATED 3  /* paths cut by max_depth */
-#define COUNTER_CUT_ENERGY 4 /* sum of their throughput (luminance), in 1/65536 */
+#define COUNTER_CUT_ENERGY 4 /* sum of their throughput (luminance), in units of 1 / CUT_ENERGY_ONE */
 #define COUNTERS 5
+#define CUT_ENERGY_ONE 65536.0f
 
 /* ---- Photons (kernels/photon) ---- */
 
@@ -388,6 +397,7 @@ typedef struct Caster {
 TRIAD_SIZE(Caster, 16);
 
 #define PHOTON_CASTERS 32 /* at most */
+#define MAP_CHUNK 256u    /* buckets of a map that one item sums up (photon/map.cl) */
 
 /* A photon that landed, as it lies in a map. */
 typedef struct Photon {
@@ -422,7 +432,7 @@ typedef struct PhotonFrame {
 } PhotonFrame;
 TRIAD_SIZE(PhotonFrame, 72);
 
-/* ---- Recorded paths (kernels/shading/record.cl) ---- */
+/* ---- Recorded paths (kernels/path/record.cl) ---- */
 
 /* How a direction was sampled: bits. */
 #define BSDF_NONE 0u
@@ -474,6 +484,10 @@ TRIAD_SIZE(PathRecord, 32);
 #define TONE_MAP_KHRONOS 1u
 #define TONE_MAP_ACES 2u
 #define TONE_MAP_AGX 3u
+
+/* Floats that the tone maps of noisy bins keep of a pixel (kernels/subpixel/noise.h): mean radiance and alpha
+ * of its bins; where the tangent touches; what a display shows of that; the share of noise. */
+#define NOISE_RECORD 13
 
 /* When the pipeline from bins to drives (kernels/subpixel/) maps tones */
 #define TONE_PER_PIXEL 0u   /* what the taps have added up */

@@ -1,7 +1,9 @@
 #pragma once
 /// Text with numbers in it.
+#include <cstdint>
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace triad {
 
@@ -11,5 +13,12 @@ std::string format(const char* pattern, auto... values) {
     std::snprintf(text.data(), text.size() + 1, pattern, values...);
     return text;
 }
+
+/// The name nearest to `word` when it is likely a slip (two edits at most, less than half of the word), else
+/// "".
+std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
+
+/// 1234567 -> "1.2 MB".
+std::string bytes_text(std::uint64_t bytes);
 
 }  // namespace triad

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/aligned_vector.h"
 #include "base/math.h"
 #include "kernels/types.h"
 
@@ -13,8 +14,8 @@ namespace triad {
 /// Trees over one pool of nodes and blocks, so that instances of many meshes share the two arrays of the
 /// device.
 struct BvhPool {
-    std::vector<dev::BvhNode> nodes;
-    std::vector<dev::TriangleBlock> blocks;
+    AlignedVector<dev::BvhNode> nodes;
+    AlignedVector<dev::TriangleBlock> blocks;
 };
 
 /// What a tree is built over. Corners in the space of the tree; primitive = index into the scene's Triangle

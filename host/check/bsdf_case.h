@@ -6,7 +6,7 @@
 
 #include "check/kernels.h"
 #include "check/measurements.h"
-#include "render/albedo_tables.h"
+#include "pack/albedo_tables.h"
 
 namespace triad::bsdf_case {
 

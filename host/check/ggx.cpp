@@ -4,7 +4,7 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/measurements.h"
-#include "render/albedo_tables.h"
+#include "pack/albedo_tables.h"
 
 namespace triad {
 namespace {

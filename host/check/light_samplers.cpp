@@ -4,7 +4,7 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 
 namespace triad {
 namespace {
@@ -15,7 +15,6 @@ using namespace picture_case;
 std::vector<std::array<float, 4>> draw(Check& check, const PackedScene& packed, const std::string& body,
                                        std::size_t count) {
     RenderSettings settings;
-    const DeviceScene scene = upload(check.device, packed, settings);
     const std::string source = R"(#include "shading/light.h"
 __kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     const uint i = get_global_id(0);
@@ -28,7 +27,8 @@ __kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     out[i] = w;
 }
 )";
-    return run_kernel<std::array<float, 4>>(check.device, source, "draw", scene.arguments, count);
+    return run_kernel<std::array<float, 4>>(check.device, source, "draw",
+                                            scene_arguments(check.device, packed, settings), count);
 }
 
 PackedScene packed_under(EnvironmentMap map) {
@@ -61,7 +61,7 @@ std::vector<double> shares_of(const PackedScene& packed) {
     const std::size_t words = e.format == ENVIRONMENT_FLOAT ? 4 : 2;
     std::vector<double> shares(std::size_t(e.width) * e.height);
     for (std::size_t i = 0; i < shares.size(); ++i)
-        shares[i] = double(std::bit_cast<float>(packed.env_texels[i * words + words - 1])) *
+        shares[i] = double(std::bit_cast<float>(packed.surfaces->env_texels[i * words + words - 1])) *
                     solid_angle(unsigned(i / e.width), e.width, e.height);
     return shares;
 }

@@ -3,7 +3,7 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 #include "scene/spectral_data.h"
 
 namespace triad {
@@ -52,10 +52,12 @@ void spectra_of_lights(Check& check) {
                                     {Law::lines, 0, {{404.66, 1}, {435.83, 2}, {546.07, 3}, {589.3, 8}}}};
     Scene scene;
     for (const LightSpectrum& s : lights) scene.lights.push_back({.spectrum = s});
-    PackedScene packed;
     RenderSettings settings;
     settings.spectral = Spectral::full;
-    pack_spectrum(scene, settings, packed);
+    auto surfaces = std::make_shared<PackedSurfaces>();
+    pack_spectrum(scene, settings, *surfaces);
+    PackedScene packed;
+    set_surfaces(packed, surfaces);
     pack_lights(scene, packed);
     pack_wavelengths(packed);
     const Buffer spectrum = check.device.upload(packed.spectrum);
@@ -74,7 +76,7 @@ void spectra_of_lights(Check& check) {
             // The tables of a light are straight between whole nanometres, those of the observer over 5 nm.
             const dvec3 expected = which == 0 ? dvec3(1.0) : colour_of(lights[which - 1]);
             const dvec3 packed_colour =
-                which == 0 ? dvec3(1.0) : dvec3(packed.light_spectra[which - 1].colour);
+                which == 0 ? dvec3(1.0) : dvec3(surfaces->light_spectra[which - 1].colour);
             for (int c = 0; c < 3; ++c) {
                 check.near(sum[c] / double(count), packed_colour[c], 2e-5, "mean of channel ", c,
                            " of spectrum ", which, by_light ? ", drawn by it" : ", drawn by all");

@@ -2,7 +2,7 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 
 namespace triad {
 namespace {
@@ -34,14 +34,14 @@ using Four = std::array<float, 4>;
 /// A scene on the device as the renderer packs it, seen from above.
 struct OnDevice {
     PackedScene packed;
-    DeviceScene scene;
+    Arguments arguments;
 };
 OnDevice on_device(Device& device, Scene scene) {
     validate(scene);
     RenderSettings settings;
     settings.view = look_at({0, 0, 0}, {0, -1, 0}, 1.0, 1.0);
     OnDevice result{pack(scene, settings), {}};
-    result.scene = upload(device, result.packed, settings);
+    result.arguments = scene_arguments(device, result.packed, settings);
     return result;
 }
 
@@ -60,7 +60,7 @@ void environment_samples(Check& check) {
     const OnDevice world = on_device(check.device, b.scene);
 
     const std::size_t count = check.count(1 << 18, 1024);
-    const auto samples = run_kernel<Four>(check.device, source, "draw", world.scene.arguments, count, 2);
+    const auto samples = run_kernel<Four>(check.device, source, "draw", world.arguments, count, 2);
     for (std::size_t i = 0; i < count; ++i) {
         const Four &a = samples[2 * i], &s = samples[2 * i + 1];
         const dvec3 d(a[0], a[1], a[2]);
@@ -85,7 +85,7 @@ void tiny_far_light(Check& check) {
     const std::size_t count = check.count(4096);
     double mean = 0;
     for (std::size_t i = 0;
-         const Four& s : run_kernel<Four>(check.device, source, "draw", world.scene.arguments, count, 2))
+         const Four& s : run_kernel<Four>(check.device, source, "draw", world.arguments, count, 2))
         if (i++ % 2) mean += s[1] / double(count);
     check.near(mean * 1e24, 1, 1e-4, "irradiance over 1e-24");
 }

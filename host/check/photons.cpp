@@ -5,8 +5,8 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
-#include "render/features.h"
-#include "render/photon_map.h"
+#include "pack/features.h"
+#include "trace/photon_map.h"
 
 namespace triad {
 namespace {
@@ -116,31 +116,28 @@ std::vector<dev::Photon> landed_in(Device& device, Scene scene, std::uint64_t ph
     const PackedScene packed = pack(scene, settings);
     const dev::Frame frame = frame_of(packed, settings);
     PhotonMap map(device, photons);
-    const DeviceScene on_device = upload(device, packed, settings, map.buffers());
-    const Kernel trace = device.build("path/photons.cl", options_of(features_of(scene, settings, packed)))
-                             .kernel("trace_photons");
-    const Buffer counters = device.allocate(2 * COUNTERS * sizeof(std::uint32_t));
-    device.fill_zero(counters);
-    device.run(
-        trace,
-        Arguments()
-            .add(on_device.arguments)
-            .add(Buffer{})
-            .add(Buffer{})
-            .add(counters)
-            .add(device.upload(std::vector<dev::PhotonFrame>{photon_frame_of(packed, settings, frame)}))
-            .add(device.upload(packed.photon_lights))
-            .add(Buffer{})
-            .add(0u)
-            .add(0u)
-            .add(0u)
-            .add(std::uint32_t(photons))
-            .add(1.0f / float(photons))
-            .add(map.landed())
-            .add(Buffer{})
-            .add(0u)
-            .add(0u),
-        photons);
+    const Arguments on_device = scene_arguments(device, packed, settings, map.buffers());
+    const Kernel trace =
+        device.build("path/photons.cl", options_of(features_of(packed, settings))).kernel("trace_photons");
+    const dev::TracePhotonsArguments own{
+        .sums = {},
+        .half_sums = {},
+        .counters = device.allocate_array<std::uint32_t>(2 * COUNTERS),
+        .photon_frame =
+            device.upload(std::vector<dev::PhotonFrame>{photon_frame_of(packed, settings, frame)}),
+        .photon_lights = device.upload(packed.photon_lights),
+        .casters = {},
+        .sample_low = 0,
+        .sample_high = 0,
+        .first_photon = 0,
+        .photon_count = std::uint32_t(photons),
+        .share = 1.0f / float(photons),
+        .landed = map.landed(),
+        .tiles = {},
+        .first_pixel = 0,
+        .pixels = 0};
+    device.fill_zero(own.counters);
+    device.run(trace, Arguments(on_device).add(arguments_of(own)), photons);
     return device.download<dev::Photon>(map.landed());
 }
 

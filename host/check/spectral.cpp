@@ -3,8 +3,8 @@
 #include "check/cases.h"
 #include "check/kernels.h"
 #include "check/picture.h"
-#include "render/albedo_tables.h"
-#include "render/pack.h"
+#include "pack/albedo_tables.h"
+#include "pack/pack.h"
 #include "scene/spectral_data.h"
 
 namespace triad {
@@ -76,10 +76,11 @@ using Two = std::array<float, 2>;
 constexpr double degree = pi / 180;
 
 /// What pack_spectrum makes of materials of these glasses.
-PackedScene packed_glasses(const std::vector<Dispersion>& glasses, Spectral spectral = Spectral::automatic) {
+PackedSurfaces packed_glasses(const std::vector<Dispersion>& glasses,
+                              Spectral spectral = Spectral::automatic) {
     Scene scene;
     for (const Dispersion& d : glasses) scene.materials.push_back({.dispersion = d});
-    PackedScene packed;
+    PackedSurfaces packed;
     packed.materials.resize(scene.materials.size());
     RenderSettings settings;
     settings.spectral = spectral;
@@ -89,7 +90,7 @@ PackedScene packed_glasses(const std::vector<Dispersion>& glasses, Spectral spec
 
 void filter_has_mean_one(Check& check) {
     for (const Spectral spectral : {Spectral::automatic, Spectral::classic}) {
-        const PackedScene packed = packed_glasses({*find_glass("F2")}, spectral);
+        const PackedSurfaces packed = packed_glasses({*find_glass("F2")}, spectral);
         const std::size_t count = std::size_t(1) << 18;
         const auto drawn = run_kernel<Four>(check.device, source, "draw",
                                             Arguments().add(check.device.upload(packed.spectrum)), count);
@@ -112,7 +113,7 @@ void filter_has_mean_one(Check& check) {
 void indices_are_the_formulas(Check& check) {
     std::vector<Dispersion> glasses;
     for (const Glass& g : glass_catalogue()) glasses.push_back(g.dispersion);
-    const PackedScene packed = packed_glasses(glasses);
+    const PackedSurfaces packed = packed_glasses(glasses);
     std::vector<float> wavelengths;
     for (std::size_t i = 0; i < check.count(1 << 16, 4096); ++i)
         wavelengths.push_back(static_cast<float>(380 + 400 * std::fmod(0.6180339887 * double(i), 1.0)));
@@ -156,7 +157,7 @@ void prism_minimum_deviation(Check& check) {
                 directions.push_back(glm::normalize(dvec3(d)));
                 rays.push_back({d.x, d.y, d.z, static_cast<float>(line)});
             }
-        const PackedScene packed = packed_glasses({glass});
+        const PackedSurfaces packed = packed_glasses({glass});
         const auto out = run_kernel<Four>(check.device, source, "cross_prism",
                                           Arguments()
                                               .add(check.device.upload(rays))
@@ -182,7 +183,7 @@ void prism_minimum_deviation(Check& check) {
 /// Direction and point of exit from the unit sphere of rays (height, wavelength) along +x.
 std::vector<Four> through_sphere(Check& check, const char* glass, const std::vector<Two>& rays,
                                  std::uint32_t reflections) {
-    const PackedScene packed = packed_glasses({*find_glass(glass)});
+    const PackedSurfaces packed = packed_glasses({*find_glass(glass)});
     return run_kernel<Four>(check.device, source, "cross_sphere",
                             Arguments()
                                 .add(check.device.upload(rays))

@@ -90,28 +90,50 @@ Device Device::open(const Settings& settings) {
 
 const DeviceInfo& Device::info() const { return state_->core->info; }
 
-Buffer Device::allocate(std::size_t bytes, const void* data) {
-    if (bytes == 0) return {};
-    const auto& core = state_->core;
-    core->require_alive();
-    const DeviceInfo& info = core->info;
+namespace opencl {
+namespace {
+
+cl_mem create_buffer(DeviceState& state, std::size_t bytes, cl_mem_flags flags, const void* data) {
+    Core& core = *state.core;
+    core.require_alive();
+    const DeviceInfo& info = core.info;
     const Where where{.sentence =
                           "Out of device memory: " + readable_bytes(bytes) +
                           " were asked for in one piece; the largest piece is " +
-                          readable_bytes(info.max_allocation) + ", and " + readable_bytes(core->allocated) +
+                          readable_bytes(info.max_allocation) + ", and " + readable_bytes(core.allocated) +
                           " of " + readable_bytes(info.memory) +
                           " are in use by this process. Use a smaller picture or scene, or another device."};
     // Drivers need not refuse more than the largest piece, so ask no driver.
     if (info.max_allocation > 0 && bytes > info.max_allocation)
-        core->check("clCreateBuffer", CL_INVALID_BUFFER_SIZE, where);
+        core.check("clCreateBuffer", CL_INVALID_BUFFER_SIZE, where);
     cl_int code = CL_SUCCESS;
-    const cl_mem_flags flags = CL_MEM_READ_WRITE | (data ? CL_MEM_COPY_HOST_PTR : 0);
-    cl_mem memory = clCreateBuffer(state_->cl(), flags, bytes, const_cast<void*>(data), &code);
-    core->check("clCreateBuffer", code, where);
-    core->allocated += bytes;
+    const cl_mem memory = clCreateBuffer(state.cl(), flags, bytes, const_cast<void*>(data), &code);
+    core.check("clCreateBuffer", code, where);
+    core.allocated += bytes;
+    return memory;
+}
+
+}  // namespace
+}  // namespace opencl
+
+Buffer Device::allocate(std::size_t bytes, const void* data) {
+    if (bytes == 0) return {};
+    const cl_mem memory =
+        opencl::create_buffer(*state_, bytes, CL_MEM_READ_WRITE | (data ? CL_MEM_COPY_HOST_PTR : 0), data);
+    return hold(memory, bytes, {});
+}
+
+Buffer Device::share(std::size_t bytes, const void* data, std::shared_ptr<const void> owner) {
+    const bool in_place = info().host_memory;
+    const cl_mem memory = opencl::create_buffer(
+        *state_, bytes, CL_MEM_READ_ONLY | (in_place ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR), data);
+    return hold(memory, bytes, in_place ? std::move(owner) : nullptr);
+}
+
+Buffer Device::hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner) {
     Buffer buffer;
     buffer.bytes_ = bytes;
-    buffer.handle_ = {memory, [core, bytes](void* object) {
+    buffer.handle_ = {memory, [core = state_->core, bytes, owner = std::move(owner)](void* object) {
                           core->allocated -= bytes;
                           if (!core->lost) clReleaseMemObject(static_cast<cl_mem>(object));
                       }};

@@ -23,6 +23,10 @@ struct ProgramState;
 struct KernelState;
 }  // namespace opencl
 
+/// Work-items of a launch at most, where work can be cut: watchdogs want short launches, and PoCL compiles a
+/// kernel a second time for grids beyond 65,535 items. A multiple of the largest work-group.
+constexpr std::size_t largest_launch_items = 65472;
+
 /// What `triad devices` shows. Zero is a legal answer for every number.
 struct DeviceInfo {
     std::size_t index = 0;  ///< over all platforms; stable while nothing is plugged in or out
@@ -31,6 +35,7 @@ struct DeviceInfo {
     std::uint64_t memory = 0, max_allocation = 0, local_memory = 0;
     unsigned compute_units = 0, clock_mhz = 0;
     std::size_t max_work_group = 0;
+    bool host_memory = false;  ///< works in the memory of the host
     bool fp64 = false, images = false, correctly_rounded = false, denormals = false, int64_atomics = false;
     bool usable = false;
     bool preferred = false;             ///< what Triad chooses without --device
@@ -85,6 +90,15 @@ class Buffer {
     friend class Arguments;
     std::shared_ptr<void> handle_;
     std::size_t bytes_ = 0;
+};
+
+/// A buffer of values of one type.
+template <class T>
+class DeviceArray : public Buffer {
+  public:
+    DeviceArray() = default;
+    /// Says what the buffer's bytes are.
+    explicit DeviceArray(Buffer buffer) : Buffer(std::move(buffer)) {}
 };
 
 /// The arguments of a kernel in order; a Buffer that was never allocated is passed as a null pointer.
@@ -173,12 +187,23 @@ class Device {
     /// much there is.
     Buffer allocate(std::size_t bytes, const void* data = nullptr);
     template <class T>
-    Buffer upload(std::span<const T> values) {
-        return values.empty() ? Buffer{} : allocate(values.size_bytes(), values.data());
+    DeviceArray<T> allocate_array(std::size_t size) {
+        return DeviceArray<T>(allocate(size * sizeof(T)));
     }
     template <class T>
-    Buffer upload(const std::vector<T>& values) {
+    DeviceArray<T> upload(std::span<const T> values) {
+        return DeviceArray<T>(values.empty() ? Buffer{} : allocate(values.size_bytes(), values.data()));
+    }
+    template <class T, class Allocator>
+    DeviceArray<T> upload(const std::vector<T, Allocator>& values) {
         return upload(std::span<const T>(values));
+    }
+    /// Values that kernels only read and that `owner` keeps: used where they are by a device that works in
+    /// the host's memory, else copied. AlignedVector suits every driver.
+    template <class T>
+    DeviceArray<T> share(std::span<const T> values, std::shared_ptr<const void> owner) {
+        return DeviceArray<T>(values.empty() ? Buffer{}
+                                             : share(values.size_bytes(), values.data(), std::move(owner)));
     }
     void write(const Buffer& buffer, const void* data, std::size_t bytes, std::size_t offset = 0);
     void read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset = 0);
@@ -210,6 +235,8 @@ class Device {
     std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
 
   private:
+    Buffer share(std::size_t bytes, const void* data, std::shared_ptr<const void> owner);
+    Buffer hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner);
     explicit Device(std::shared_ptr<opencl::DeviceState> state) : state_(std::move(state)) {}
     std::shared_ptr<opencl::DeviceState> state_;
 };

@@ -74,6 +74,7 @@ DeviceInfo describe(cl_device_id device, const std::string& platform) {
     info.compute_units = number_of<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS);
     info.clock_mhz = number_of<cl_uint>(device, CL_DEVICE_MAX_CLOCK_FREQUENCY);
     info.max_work_group = number_of<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+    info.host_memory = number_of<cl_bool>(device, CL_DEVICE_HOST_UNIFIED_MEMORY);
     info.images = number_of<cl_bool>(device, CL_DEVICE_IMAGE_SUPPORT);
     const auto single = number_of<cl_device_fp_config>(device, CL_DEVICE_SINGLE_FP_CONFIG);
     info.correctly_rounded = single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT;

@@ -43,15 +43,6 @@ std::vector<double> seen_by_others(const Tiles& tiles, const SetErrors& s,
 
 }  // namespace
 
-std::vector<std::uint32_t> set_pixels(unsigned width, unsigned height) {
-    const Tiles tiles(width, height);
-    std::vector<std::uint32_t> pixels(2 * tiles.across * tiles.down);
-    for (std::size_t y = 0; y < height; ++y)
-        for (std::size_t x = 0; x < width; ++x)
-            ++pixels[2 * (y / FILM_TILE * tiles.across + x / FILM_TILE) + ((x ^ y) & 1)];
-    return pixels;
-}
-
 SetErrors relmse_of_sets(const Film& film, std::span<const float> errors, const SetSamples& have) {
     if (errors.empty()) return {};
     const Tiles tiles(film.width, film.height);

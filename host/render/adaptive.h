@@ -10,20 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "scene/film.h"
+#include "scene/film_sets.h"
 
 namespace triad {
-
-/// Samples per pixel of set s of tile t, at [2 t + s]. Tiles of FILM_TILE pixels, row-major over the film's
-/// crop; set s has the pixels with ((x ^ y) & 1) == s.
-using SetSamples = std::vector<std::uint32_t>;
-
-/// Pixels of each set: less than half a tile at the film's right and bottom edge, possibly none.
-std::vector<std::uint32_t> set_pixels(unsigned width, unsigned height);
-
-/// s of each set, summed over its pixels, from its own samples alone: with n samples per pixel it adds s / n
-/// to the picture's error. Empty: not known yet.
-using SetErrors = std::vector<double>;
 
 /// Of the relMSE. `errors`: error_map(film, Neighbours::own_set), which may be empty too.
 SetErrors relmse_of_sets(const Film& film, std::span<const float> errors, const SetSamples& have);

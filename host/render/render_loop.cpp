@@ -6,6 +6,7 @@
 
 #include "render/adaptive.h"
 #include "render/renderer_state.h"
+#include "scene/film_sets.h"
 
 namespace triad {
 namespace {
@@ -27,22 +28,23 @@ class RenderLoop {
     RenderLoop(Renderer::State& state, const RenderGoal& goal,
                const std::function<bool(const Progress&)>& report)
         : s_(state),
-          goal_(even_with_photons(goal, state.photons)),
+          goal_(even_with_photons(goal, state.photons())),
           report_(report),
-          schedule_(goal_, unsigned(state.film.bins())),
-          pixels_(set_pixels(state.film.width, state.film.height)),
+          schedule_(goal_, unsigned(film().bins())),
+          tiles_(tile_count(film().width, film().height)),
+          pixels_(set_pixels(film().width, film().height)),
           have_(pixels_.size()),
-          ranges_before_(state.film.ranges),
-          samples_before_(double(state.film.sample_count())) {
+          ranges_before_(film().ranges),
+          samples_before_(double(film().sample_count())) {
         assert(ranges_before_.empty() || (!goal_.adaptive && goal.error == 0));
     }
 
     RenderResult run() {
-        if (s_.is_classic() && !s_.has_classic_map) make_classic_map();
+        if (photons().is_classic()) make_classic_map();
         while (const auto end = schedule_.next_round(samples(), seconds())) {
             if (goal_.adaptive && goal_.set_errors && total_ == 0) {
-                reach(SetSamples(have_.size(), std::uint32_t(s_.film.bins())));
-                s_.load_film_arrays();
+                reach(SetSamples(have_.size(), std::uint32_t(film().bins())));
+                gather();
                 look();
             } else if (goal_.adaptive && total_ > 0) {
                 look();
@@ -55,8 +57,7 @@ class RenderLoop {
         const double rendered = seconds();
         if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
         const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
-        s_.film.ranges = ranges_before_;
-        if (range.end > range.begin) s_.film.ranges.push_back(range);
+        s_.store.set_ranges(with_before(range));
         return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), rendered, trend_.slope(),
                 perceived_noise_};
     }
@@ -67,6 +68,7 @@ class RenderLoop {
     const std::function<bool(const Progress&)>& report_;
     Schedule schedule_;
     Trend trend_;  ///< of every estimate; the schedule decides by those at the ends of rounds alone
+    const std::size_t tiles_;
     const std::vector<std::uint32_t> pixels_;  ///< of each set
     SetSamples have_;
     const std::vector<SampleRange> ranges_before_;
@@ -87,8 +89,19 @@ class RenderLoop {
         return goal;
     }
 
+    const Film& film() const { return s_.film(); }
+    PhotonTracer& photons() { return s_.tracers.front()->photons(); }
+    void gather() { s_.store.gather(s_.tracers); }
+
+    /// Samples that all tracers trace in a second; 0: nothing was measured yet.
+    double pace() const {
+        double sum = 0;
+        for (const auto& tracer : s_.tracers) sum += tracer->pace;
+        return sum;
+    }
+
     double seconds() const { return seconds_since(start_); }
-    double samples() const { return double(total_) / double(s_.film.pixels()); }
+    double samples() const { return double(total_) / double(film().pixels()); }
 
     /// The least that any pixel has.
     std::uint32_t least() const {
@@ -102,8 +115,8 @@ class RenderLoop {
     /// to decide by. Adaptive sampling for the relMSE gives both halves of every bin the same.
     SetSamples wanted_at(double end) const {
         if (!set_errors_.empty())
-            return distribute(s_.film.width, s_.film.height, set_errors_, have_, end,
-                              unsigned((goal_.set_errors ? 1 : 2) * s_.film.bins()));
+            return distribute(film().width, film().height, set_errors_, have_, end,
+                              unsigned((goal_.set_errors ? 1 : 2) * film().bins()));
         return SetSamples(have_.size(), std::uint32_t(std::llround(end)));
     }
 
@@ -113,7 +126,7 @@ class RenderLoop {
             std::uint64_t waiting = 0;
             for (std::size_t i = 0; i < have_.size(); ++i) waiting += (wanted[i] > have_[i]) * pixels_[i];
             if (waiting == 0) return;
-            const double fit = s_.items_per_second * launches_per_pass * launch_seconds / double(waiting);
+            const double fit = pace() * launches_per_pass * launch_seconds / double(waiting);
             if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
             if (goal_.follow && seconds() >= next_estimate_) estimate(false);
             interrupted_ = !report_(progress());
@@ -123,25 +136,25 @@ class RenderLoop {
     /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
     /// which leaves sets uneven, and never happens before every pixel has a sample.
     bool pass(const SetSamples& wanted, unsigned run) {
-        const auto bins = unsigned(s_.film.bins());  // each gets as many samples, wherever a render is cut
+        const auto bins = unsigned(film().bins());  // each gets as many samples, wherever a render is cut
         run = std::max(run / bins, 1u) * bins;
         const bool may_be_cut = least() > 0 && schedule_.may_end_within_sample(samples(), seconds());
-        const double pace = total_ > 0 ? seconds() / double(total_) : 0;
-        if (!goal_.adaptive && pace > 0) {  // even passes: the last one ends at the time asked for
-            const double fit = schedule_.time_left(seconds()) / (pace * double(s_.film.pixels())) / bins;
+        const double per_sample = total_ > 0 ? seconds() / double(total_) : 0;
+        if (!goal_.adaptive && per_sample > 0) {  // even passes: the last one ends at the time asked for
+            const double fit = schedule_.time_left(seconds()) / (per_sample * double(film().pixels())) / bins;
             const double whole = may_be_cut ? std::floor(fit) : std::round(fit);
             run = bins * unsigned(std::clamp(whole, 1.0, double(run / bins)));
         }
         std::vector<dev::TileWork> work;
-        for (std::size_t i = 0; i < s_.tiles; ++i) {
+        for (std::size_t i = 0; i < tiles_; ++i) {
             const std::size_t t = may_be_cut ? scattered(i) : i;
             dev::TileWork w{std::uint32_t(t), {have_[2 * t], have_[2 * t + 1]}, {}, {}};
             for (std::size_t set = 0; set < 2; ++set)
                 w.sample_count[set] = std::min(wanted[2 * t + set] - have_[2 * t + set], run);
             if (w.sample_count[0] + w.sample_count[1] > 0) work.push_back(w);
         }
-        if (s_.photons > 0 && !s_.is_classic()) return pass_with_photons(work, may_be_cut);
-        s_.device.write(s_.work, work.data(), work.size() * sizeof(dev::TileWork));
+        if (photons().count() > 0 && !photons().is_classic()) return pass_with_photons(work, may_be_cut);
+        for (auto& tracer : s_.tracers) tracer->set_work(work);
         std::size_t done = 0;
         while (done < work.size() && !(may_be_cut && schedule_.time_is_up(samples(), seconds())))
             done += launch(work, done, 0, may_be_cut);
@@ -157,53 +170,51 @@ class RenderLoop {
         if (may_be_cut) {
             std::uint64_t items = 0;
             for (const dev::TileWork& w : work) items += samples_of(w);
-            const double paths = double(items) / s_.items_per_second, photons = run * photon_seconds_,
+            const double paths = double(items) / pace(), photon_time = run * photon_seconds_,
                          left = schedule_.time_left(seconds());
             // as many photons in proportion as tiles, but enough of them
-            double tiles = std::min(left / (paths + photons), 1.0);
+            double tiles = std::min(left / (paths + photon_time), 1.0);
             share = std::max(tiles, least_photon_share);
-            if (tiles < share) tiles = std::clamp((left - share * photons) / paths, 0.0, 1.0);
+            if (tiles < share) tiles = std::clamp((left - share * photon_time) / paths, 0.0, 1.0);
             work.resize(std::max<std::size_t>(std::size_t(tiles * double(all)), 1));
-            std::vector<std::uint32_t> chosen(s_.tiles, 0);
+            std::vector<std::uint32_t> chosen(tiles_, 0);
             for (const dev::TileWork& w : work) chosen[w.tile] = 1;
-            s_.set_photon_tiles(chosen);
+            photons().set_tiles(chosen);
         }
         for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = 1;
-        s_.device.write(s_.work, work.data(), work.size() * sizeof(dev::TileWork));
+        for (auto& tracer : s_.tracers) tracer->set_work(work);
         for (std::uint32_t i = 0; i < run; ++i) {
             trace_photons(goal_.samples.begin + work.front().first_sample[0] + i, share);
             for (std::size_t done = 0; done < work.size();) done += launch(work, done, i, may_be_cut);
         }
-        if (may_be_cut) s_.set_photon_tiles(std::vector<std::uint32_t>(s_.tiles, 1));
+        if (may_be_cut) photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
         return work.size() == all;
     }
 
     void trace_photons(std::uint64_t sample, double share) {
         const double began = seconds();
-        s_.launch_photons(sample, std::uint64_t(std::ceil(share * double(s_.photons))));
-        s_.device.finish();
+        Tracer& tracer = *s_.tracers.front();
+        photons().trace(sample, std::uint64_t(std::ceil(share * double(photons().count()))), tracer.part());
+        tracer.finish();
         const double took = seconds() - began;
         s_.photon_seconds += took;
         photon_seconds_ = took / share;
-        schedule_.set_least_step(least_photon_share * photon_seconds_ * double(s_.film.bins()));
+        schedule_.set_least_step(least_photon_share * photon_seconds_ * double(film().bins()));
     }
 
-    /// The map of the classic method, once.
+    /// Unless it was made before.
     void make_classic_map() {
         const double began = seconds();
-        s_.launch_photons(0, s_.photons);
-        s_.device.finish();
+        photons().make_classic_map(s_.tracers.front()->part());
         s_.photon_seconds += seconds() - began;
-        s_.device.fill_zero(s_.counters);  // every part of a render makes it anew
-        s_.has_classic_map = true;
     }
 
     /// The tiles in an order whose every beginning is spread over the picture: a pass that is cut favours no
     /// part of it. Steps of the golden ratio, made coprime to the number of tiles.
     std::size_t scattered(std::size_t i) const {
-        std::size_t step = std::max<std::size_t>(1, std::size_t(double(s_.tiles) * 0.6180339887498949));
-        while (std::gcd(step, s_.tiles) != 1) ++step;
-        return i * step % s_.tiles;
+        std::size_t step = std::max<std::size_t>(1, std::size_t(double(tiles_) * 0.6180339887498949));
+        while (std::gcd(step, tiles_) != 1) ++step;
+        return i * step % tiles_;
     }
 
     /// Samples that a tile's work adds up to.
@@ -212,61 +223,75 @@ class RenderLoop {
                std::uint64_t(w.sample_count[1]) * pixels_[2 * w.tile + 1];
     }
 
-    /// As much of work[first, ...) as takes launch_seconds, or the time left, `sample` samples on. Returns
-    /// how many tiles that were.
+    /// As much of work[first, ...) as takes launch_seconds, or the time left, on every tracer at once;
+    /// `sample` samples on. Returns how many tiles that were.
     std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, std::uint32_t sample,
                        bool may_be_cut) {
         const double time =
             may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds())) : launch_seconds;
-        const double fit = s_.items_per_second * time;
-        const std::size_t most = s_.items_per_second > 0 ? largest_launch : 16;
-        std::size_t n = 0;
-        std::uint64_t samples = 0;
-        const std::size_t band = work[first].tile / s_.band_tiles;
-        while (first + n < work.size() && n < most && work[first + n].tile / s_.band_tiles == band &&
-               (n == 0 || s_.items_per_second == 0 || double(samples) < fit))
-            samples += samples_of(work[first + n++]);
+        std::size_t next = first;
+        std::vector<std::uint64_t> shares;
         const auto start = RenderClock::now();
-        s_.launch(first, n, goal_.samples.begin + sample, band);
-        s_.device.finish();
-        const double rate = double(samples) / std::max(seconds_since(start), 1e-6);
-        // Small launches are dominated by overhead and must not make the next ones smaller still.
-        s_.items_per_second = std::max(0.5 * (s_.items_per_second + rate), rate);
-        for (std::size_t i = first; i < first + n; ++i)
+        for (auto& tracer : s_.tracers) {
+            if (next == work.size()) break;
+            const double fit = tracer->pace * time;
+            const std::size_t most = tracer->pace > 0 ? largest_launch : 16;
+            std::size_t n = 0;
+            std::uint64_t samples = 0;
+            while (next + n < work.size() && n < most &&
+                   (n == 0 || tracer->pace == 0 || double(samples) < fit))
+                samples += samples_of(work[next + n++]);
+            tracer->trace(next, n, goal_.samples.begin + sample);
+            shares.push_back(samples);
+            next += n;
+        }
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            Tracer& tracer = *s_.tracers[i];
+            tracer.finish();
+            const double rate = double(shares[i]) / std::max(seconds_since(start), 1e-6);
+            // Small launches are dominated by overhead and must not make the next ones smaller still.
+            tracer.pace = std::max(0.5 * (tracer.pace + rate), rate);
+            total_ += shares[i];
+        }
+        for (std::size_t i = first; i < next; ++i)
             for (std::size_t set = 0; set < 2; ++set)
                 have_[2 * work[i].tile + set] += work[i].sample_count[set];
-        total_ += samples;
-        return n;
+        return next - first;
     }
 
     /// The film says what every pixel has, while estimates are made of it.
     void name_ranges() {
-        s_.film.ranges = ranges_before_;
-        s_.film.ranges.push_back({goal_.samples.begin, goal_.samples.begin + least()});
+        s_.store.set_ranges(with_before({goal_.samples.begin, goal_.samples.begin + least()}));
+    }
+
+    std::vector<SampleRange> with_before(SampleRange range) const {
+        std::vector<SampleRange> ranges = ranges_before_;
+        if (range.end > range.begin) ranges.push_back(range);
+        return ranges;
     }
 
     /// What the film that was last read says about where samples should go.
     void look() {
         name_ranges();
         set_errors_ = goal_.set_errors
-                          ? goal_.set_errors(s_.film, have_)
-                          : relmse_of_sets(s_.film, error_map(s_.film, Neighbours::own_set), have_);
-        s_.film.ranges = ranges_before_;
+                          ? goal_.set_errors(film(), have_)
+                          : relmse_of_sets(film(), error_map(film(), Neighbours::own_set), have_);
+        s_.store.set_ranges(ranges_before_);
     }
 
     /// Estimates the error; at the end of a round also for the decisions.
     void estimate(bool decides) {
         const double began = seconds();
         name_ranges();
-        s_.load_film_arrays();
-        rays_ = s_.film.counters[COUNTER_RAYS];
-        relmse_ = estimated_relmse(s_.film);
-        if (goal_.perceived_noise) perceived_noise_ = goal_.perceived_noise(s_.film);
+        gather();
+        rays_ = film().counters[COUNTER_RAYS];
+        relmse_ = estimated_relmse(film());
+        if (goal_.perceived_noise) perceived_noise_ = goal_.perceived_noise(film());
         if (relmse_ >= 0) {
             trend_.add(samples_before_ + samples(), relmse_);
             if (decides) schedule_.add_estimate(samples(), relmse_);
         }
-        s_.film.ranges = ranges_before_;
+        s_.store.set_ranges(ranges_before_);
         // Estimating reads the whole film: spend a small share of the time on it.
         next_estimate_ = seconds() + std::max(1.0, 20 * (seconds() - began));
     }

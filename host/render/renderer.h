@@ -1,16 +1,17 @@
 #pragma once
-/// One picture of one scene on one device: packs, specialises, launches, and hands out the film.
+/// One picture of one scene on one or several devices: specialises, launches, and hands out the film.
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "device/device.h"
-#include "render/features.h"
-#include "render/record.h"
+#include "pack/pack.h"
 #include "render/schedule.h"
-#include "render/settings.h"
 #include "scene/film.h"
 #include "scene/scene.h"
+#include "trace/feature_planes.h"
+#include "trace/recorder.h"
 
 namespace triad {
 
@@ -36,13 +37,19 @@ struct RenderResult {
     std::optional<double> perceived_noise;  ///< of the whole render, where it was wanted
 };
 
+using DeviceScenes = std::vector<std::shared_ptr<const DeviceScene>>;
+
 class Renderer {
   public:
-    /// Builds the trees, uploads the scene and compiles the kernels (a first, discarded launch compiles on
-    /// drivers that do so at launch). Throws Error(scene) "nothing to render ..." when the scene has no
-    /// triangles.
-    /// `features` replaces what features_of() finds: tests prove that leaving things out changes no bit.
+    /// Packs the scene for one device: for a single picture. Throws Error(scene) "nothing to render ..." when
+    /// the scene has no triangles. `features` replaces what features_of() finds: tests prove that leaving
+    /// things out changes no bit.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
+             const std::optional<Features>& features = {});
+    /// A picture of what is packed and on its devices already: builds no tree and uploads no scene again. All
+    /// of `scenes` are of one PackedScene, for which holds_for(*scene, settings). Photons light a picture as
+    /// a whole: with them the first device alone works.
+    Renderer(const DeviceScenes& scenes, const RenderSettings& settings,
              const std::optional<Features>& features = {});
     ~Renderer();
 
@@ -56,31 +63,23 @@ class Renderer {
     /// making one.
     void restart(std::uint32_t seed);
 
-    /// The film so far, read from the device. Equal work gives equal bytes.
+    /// The film so far, read from the devices. Equal work gives equal bytes.
     Film film();
+    /// Goes on from a film of this picture: what is rendered from now on is added to it. Throws Error(scene)
+    /// when it is of another.
+    void resume(const Film& film);
 
-    /// Deterministic features of what the camera sees, averaged over the given samples of the same paths:
-    /// planes of floats per pixel: albedo (3), shading normal (3, world), position (3, world), depth (1,
-    /// along the view).
-    struct FeaturePlanes {
-        std::vector<float> albedo, normal, position, depth;
-    };
     FeaturePlanes feature_planes(unsigned samples);
-
-    /// Receives the paths of samples [range) of one pixel of the crop, vertex by vertex. The bits are those
-    /// that render() adds to the film.
+    /// record_paths() on the first device.
     void record_pixel(unsigned x, unsigned y, SampleRange range,
                       const std::function<void(const RecordedPath&)>& receive);
-    /// What light can come from, for RecordedVertex: every material, then every punctual light, then the
-    /// environment.
-    const std::vector<std::string>& light_sources() const;
 
+    const PackedScene& packed() const;
     const Features& features() const;
-    const std::string& integrator() const;  ///< which one was chosen, and why
     /// With every sample of the picture, or in all for the classic map; 0: none.
     std::uint64_t photons() const;
     double photon_seconds() const;   ///< that photons and their maps have taken
-    double build_seconds() const;    ///< trees and packing
+    double build_seconds() const;    ///< trees and packing; 0: they were there
     double compile_seconds() const;  ///< kernels, with the warm-up launch
     std::uint64_t device_bytes() const;
 

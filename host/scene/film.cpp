@@ -14,8 +14,9 @@ std::string text(const SampleRange& range) {
     return std::to_string(range.begin) + ":" + std::to_string(range.end);
 }
 
-/// Throws when the parts are not of one picture, in words that say in what they differ.
-void check_same_picture(const Film& a, const Film& b) {
+}  // namespace
+
+void require_same_picture(const Film& a, const Film& b) {
     const auto differ = [](const std::string& what) {
         throw Error(Exit::scene, "The films cannot be merged: they differ in " + what + ".");
     };
@@ -27,6 +28,8 @@ void check_same_picture(const Film& a, const Film& b) {
     if (a.quanta_log2 != b.quanta_log2) differ("their fixed-point quantum");
     if (a.settings != b.settings || a.settings_text != b.settings_text) differ("their settings");
 }
+
+namespace {
 
 /// Modulo 2^64: the quantum leaves room for every sum that fits, and order must not matter for those that do
 /// not.
@@ -88,7 +91,7 @@ Film merge(std::span<const Film> parts) {
                 "--samples, or with --spp and --adaptive off.");
     std::vector<SampleRange> ranges = whole.ranges;
     for (const Film& part : parts.subspan(1)) {
-        check_same_picture(whole, part);
+        require_same_picture(whole, part);
         ranges.insert(ranges.end(), part.ranges.begin(), part.ranges.end());
     }
     whole.ranges = join(std::move(ranges));

@@ -53,6 +53,9 @@ struct Film {
 /// holes().
 Film merge(std::span<const Film> parts);
 
+/// Throws Error(scene) when the films are not of one picture, in words that say in what they differ.
+void require_same_picture(const Film& a, const Film& b);
+
 /// What is missing in [0, end).
 std::vector<SampleRange> holes(const Film& film, std::uint64_t end);
 

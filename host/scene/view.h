@@ -17,6 +17,11 @@ struct View {
     double focus_distance = 1.0;  ///< along forward
 };
 
+/// How far from the eye rays may start: on the lens, or on the image plane of an orthographic view.
+inline double lens_reach(const View& view) {
+    return view.lens_radius + (view.orthographic ? view.extent.x + view.extent.y : 0.0);
+}
+
 /// A camera of the file in a picture of width / height `aspect`. A camera that asks for another aspect is
 /// shown whole: the picture sees more on two sides.
 View view_of(const SceneCamera& camera, double aspect);

@@ -22,27 +22,19 @@ TRIAD_FUNCTION VertexBsdf path_bsdf(const Scene* scene, PathState* path, Vertex*
 
 #if PATH_EACH
 /* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
-TRIAD_FUNCTION_ONCE Colour path_eval_each_once(const Scene* scene, const PathColour* c, const Surface* s,
-                                               Vec3 wo, Vec3 ng, int back, Bodies here, Bodies beyond,
-                                               Vec3 wi, Vec4* densities) {
-    const float wavelengths[4] = {c->wavelengths.x, c->wavelengths.y, c->wavelengths.z, c->wavelengths.w};
+TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, Vec4 wavelengths, const Vertex* vertex, Vec3 wi,
+                                          Vec4* densities) {
+    const float nanometres[4] = {wavelengths.x, wavelengths.y, wavelengths.z, wavelengths.w};
     float value[4], density[4];
     for (uint i = 0u; i < 4u; ++i) {
-        const VertexBsdf v = vertex_bsdf(scene, s, wo, ng, back, here, beyond, wavelengths[i]);
+        const VertexBsdf v = vertex_bsdf(scene, &vertex->surface, vertex->wo, vertex->ng, vertex->back,
+                                         vertex->around.here, vertex->around.beyond, nanometres[i]);
         density[i] = 0.0f;
         const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
         value[i] = i == 0u ? f.x : i == 1u ? f.y : i == 2u ? f.z : f.w;
     }
     *densities = VEC4_OF(density);
     return VEC4_OF(value);
-}
-TRIAD_FUNCTION Colour path_eval_each(const Scene* scene, const PathState* path, const Vertex* vertex, Vec3 wi,
-                                     Vec4* densities) {
-    /* copies: what a call is given an address of does not stay in registers */
-    const Surface surface = vertex->surface;
-    const PathColour colours = path->colours;
-    return path_eval_each_once(scene, &colours, &surface, vertex->wo, vertex->ng, vertex->back,
-                               vertex->around.here, vertex->around.beyond, wi, densities);
 }
 #endif
 
@@ -53,7 +45,7 @@ TRIAD_FUNCTION Colour path_eval(const Scene* scene, const PathState* path, const
 #if PATH_EACH
     if (vertex->each) {
         Vec4 densities;
-        const Colour f = path_eval_each(scene, path, vertex, wi, &densities);
+        const Colour f = path_eval_each(scene, path_wavelengths(&path->colours), vertex, wi, &densities);
         *density = path_mean_density(&path->colours, densities);
         return f;
     }

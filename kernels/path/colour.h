@@ -45,6 +45,7 @@ TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* s
     return c;
 }
 
+TRIAD_FUNCTION Vec4 path_wavelengths(const PathColour* c) { return c->wavelengths; }
 TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelengths.x; }
 
 /* Of a reflectance, an absorption, or light that is D65 when white. */
@@ -134,6 +135,7 @@ TRIAD_FUNCTION PathColour path_colour_start(const Scene* scene, const Sampler* s
     return c;
 }
 
+TRIAD_FUNCTION float path_wavelengths(const PathColour* c) { return c->wavelength; }
 TRIAD_FUNCTION float path_wavelength(const PathColour* c) { return c->wavelength; }
 TRIAD_FUNCTION Colour path_colour(const PathColour* c, Vec3 rgb) {
     (void)c;
@@ -164,27 +166,31 @@ TRIAD_FUNCTION Vec3 path_rgb(const PathColour* c, Vec3 radiance) { return path_c
 
 #endif
 
+#if TRIAD_LIGHT_SPECTRA
+/* What a spectrum of light has of the path's wavelengths. */
+#if TRIAD_HERO
+TRIAD_FUNCTION_ONCE Colour path_spectrum(global const Spectrum* spectra, uint which, Vec4 at) {
+    return vec4_make(spectrum_of_light(spectra, which, at.x), spectrum_of_light(spectra, which, at.y),
+                     spectrum_of_light(spectra, which, at.z), spectrum_of_light(spectra, which, at.w));
+}
+#else
+TRIAD_FUNCTION Colour path_spectrum(global const Spectrum* spectra, uint which, float wavelength) {
+    return wavelength > 0.0f ? vec3_splat(spectrum_of_light(spectra, which, wavelength))
+                             : spectrum_colour_of_light(spectra, which);
+}
+#endif
+#endif
+
 /* The light of a Light with these flags, whose colour is `rgb`. */
 TRIAD_FUNCTION Colour path_light(const Scene* scene, const PathColour* c, uint flags, Vec3 rgb) {
+    const Colour colour = path_colour(c, rgb);
 #if TRIAD_LIGHT_SPECTRA
     const uint which = flags >> LIGHT_SPECTRUM_SHIFT;
-    if (which != 0u) {
-#if TRIAD_HERO
-        global const Spectrum* s = scene->spectrum;
-        const Vec4 w = c->wavelengths;
-        const Vec4 light = vec4_make(spectrum_of_light(s, which, w.x), spectrum_of_light(s, which, w.y),
-                                     spectrum_of_light(s, which, w.z), spectrum_of_light(s, which, w.w));
-        return vec4_mul(path_colour(c, rgb), light);
-#else
-        return vec3_mul(rgb, c->wavelength > 0.0f
-                                 ? vec3_splat(spectrum_of_light(scene->spectrum, which, c->wavelength))
-                                 : spectrum_colour_of_light(scene->spectrum, which));
-#endif
-    }
+    if (which != 0u) return colour_mul(colour, path_spectrum(scene->spectrum, which, path_wavelengths(c)));
 #else
     (void)scene, (void)flags;
 #endif
-    return path_colour(c, rgb);
+    return colour;
 }
 
 #if TRIAD_TRANSMISSION

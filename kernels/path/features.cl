@@ -8,7 +8,7 @@
 /* Means over samples [0, sample_count) of what the camera rays of the same samples meet first: albedo (3
  * floats per pixel), shading normal (3, world), position (3, rebased), depth along the view (1). Over the
  * samples that hit. */
-kernel void trace_features(SCENE_PARAMETERS TRACE_FEATURES_LIST(PARAMETER_OWNED, PARAMETER_VALUE)) {
+kernel void trace_features(SCENE_PARAMETERS PARAMETERS(TRACE_FEATURES_LIST)) {
     const size_t item = get_global_id(0);
     if (item >= pixel_count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;

@@ -21,7 +21,8 @@ TRIAD_FUNCTION void path_fork(const Scene* scene, PathState* path, const Vertex*
         fork->body_scale = path->body_scale;
         fork->bodies = path->bodies;
     }
-    path_draw_wavelength(&path->colours, scene, &path->sampler, fork->branch, &path->radiance);
+    const Sampler sampler = path->sampler; /* a copy: see state.h */
+    path_draw_wavelength(&path->colours, scene, &sampler, fork->branch, &path->radiance);
 #else
     (void)scene, (void)path, (void)vertex;
 #endif

@@ -5,12 +5,7 @@
 #include "path/add.h"
 #include "path/mega.h"
 
-#define TRACE_PATHS_PARAMETERS \
-    SCENE_PARAMETERS TRACE_PATHS_LIST(PARAMETER_ARRAY, PARAMETER_OWNED, PARAMETER_SHARED, PARAMETER_VALUE)
-#define TRACE_PATHS_ARGUMENTS \
-    SCENE_ARGUMENTS TRACE_PATHS_LIST(PARAMETER_NAME, PARAMETER_NAME, PARAMETER_NAME, PARAMETER_NAME)
-
-TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PATHS_PARAMETERS, size_t item) {
+TRIAD_FUNCTION_ONCE void trace_pixel(SCENE_PARAMETERS PARAMETERS(TRACE_PATHS_LIST), size_t item) {
     if (item >= (size_t)work_count * FILM_TILE_PIXELS) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;
@@ -35,4 +30,6 @@ TRIAD_FUNCTION_ONCE void trace_pixel(TRACE_PATHS_PARAMETERS, size_t item) {
 }
 
 /* Adds to the film the samples that the work names. */
-kernel void trace_paths(TRACE_PATHS_PARAMETERS) { trace_pixel(TRACE_PATHS_ARGUMENTS, get_global_id(0)); }
+kernel void trace_paths(SCENE_PARAMETERS PARAMETERS(TRACE_PATHS_LIST)) {
+    trace_pixel(SCENE_ARGUMENTS ARGUMENTS(TRACE_PATHS_LIST), get_global_id(0));
+}

@@ -5,12 +5,7 @@
 
 #include "path/photon.h"
 
-#define TRACE_PHOTONS_PARAMETERS \
-    SCENE_PARAMETERS TRACE_PHOTONS_LIST(PARAMETER_ARRAY, PARAMETER_OWNED, PARAMETER_SHARED, PARAMETER_VALUE)
-#define TRACE_PHOTONS_ARGUMENTS \
-    SCENE_ARGUMENTS TRACE_PHOTONS_LIST(PARAMETER_NAME, PARAMETER_NAME, PARAMETER_NAME, PARAMETER_NAME)
-
-TRIAD_FUNCTION_ONCE void trace_photon(TRACE_PHOTONS_PARAMETERS, size_t item) {
+TRIAD_FUNCTION_ONCE void trace_photon(SCENE_PARAMETERS PARAMETERS(TRACE_PHOTONS_LIST), size_t item) {
     if (item >= photon_count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     /* the halves of the film take turns as in sample_name() */
@@ -37,6 +32,6 @@ TRIAD_FUNCTION_ONCE void trace_photon(TRACE_PHOTONS_PARAMETERS, size_t item) {
 }
 
 /* Traces photons of a sample of the picture, for a piece of the film and for the map. */
-kernel void trace_photons(TRACE_PHOTONS_PARAMETERS) {
-    trace_photon(TRACE_PHOTONS_ARGUMENTS, get_global_id(0));
+kernel void trace_photons(SCENE_PARAMETERS PARAMETERS(TRACE_PHOTONS_LIST)) {
+    trace_photon(SCENE_ARGUMENTS ARGUMENTS(TRACE_PHOTONS_LIST), get_global_id(0));
 }

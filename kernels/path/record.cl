@@ -8,7 +8,7 @@
 #include "path/mega.h"
 
 /* One work-item is one sample. */
-kernel void record_paths(SCENE_PARAMETERS RECORD_PATHS_LIST(PARAMETER_OWNED, PARAMETER_VALUE)) {
+kernel void record_paths(SCENE_PARAMETERS PARAMETERS(RECORD_PATHS_LIST)) {
     const size_t item = get_global_id(0);
     if (item >= sample_count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;

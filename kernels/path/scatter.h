@@ -58,7 +58,8 @@ TRIAD_FUNCTION int path_scatter(const Scene* scene, PathState* path, const Verte
 #if PATH_EACH
     if (vertex->each) {
         Vec4 densities;
-        weight = path_eval_each(scene, path, vertex, scatter->sample.wi, &densities);
+        weight =
+            path_eval_each(scene, path_wavelengths(&path->colours), vertex, scatter->sample.wi, &densities);
         density = path_mean_density(&path->colours, densities);
         if (!(density > 0.0f)) return 0;
         weight = colour_scale(weight, 1.0f / density);

@@ -1,6 +1,9 @@
 /* A path as it stands at the start of an edge: what it takes to go on from there, and what it has found so
  * far. Everything else can be had again: random numbers are a function of the sample's name and the edge, the
- * surface of the hit. */
+ * surface of the hit.
+ *
+ * In drivers that follow a path in one loop the state dissolves into registers, as long as no function that
+ * is not copied into its caller is given an address of it or of a member: such calls get copies. */
 #ifndef TRIAD_PATH_STATE_H
 #define TRIAD_PATH_STATE_H
 

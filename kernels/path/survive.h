@@ -15,7 +15,7 @@ TRIAD_FUNCTION int path_is_longest(const Scene* scene, const PathState* path, Ta
     ++tally->truncated;
     tally->cut_energy +=
         (uint)(math_min(path_share(&path->colours) * colour_luminance(path->throughput), 65535.0f) *
-               65536.0f);
+               CUT_ENERGY_ONE);
     record_end(tally, PATH_LONGEST);
     return 1;
 }

@@ -5,9 +5,6 @@
 
 #include "shading/photon_map.h"
 
-/* Buckets that one item sums up. */
-#define MAP_CHUNK 256u
-
 TRIAD_FUNCTION uint map_bucket(const PhotonMap* map, global const Photon* photon) {
     return photon_bucket(map, photon_cell(map, VEC3_OF(photon->position)));
 }

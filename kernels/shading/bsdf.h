@@ -16,11 +16,6 @@
 #include "shading/fresnel.h"
 #include "shading/ggx.h"
 
-/* Below this a lobe is a mirror: float directions cannot resolve it. */
-#define BSDF_SMOOTH_ALPHA 1e-3f
-/* A body whose index differs from 1 by less is taken as smooth: its roughness would blur what is behind by
- * less than alpha / 100, and half vectors lose their meaning. */
-#define BSDF_SAME_INDEX 1e-2f
 /* Share of the transmitting part that is sampled even where it looks black from wo. */
 #define BSDF_MIN_TRANSMITTER 0.1f
 

@@ -117,7 +117,7 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
     const uint pixel = (uint)get_global_id(0), x = pixel % slab->width, y = pixel / slab->width;
     if (y >= rows) return;
     const uint bins_x = slab->bins[0], bins_y = slab->bins[1], bins = bins_x * bins_y;
-    float above[NOISE_MOST_BINS + 2];
+    float above[FILM_MOST_BINS + 2];
     NoiseSums noise = {0.0f, 0.0f, 0.0f, 0u, 0u};
     for (int v = -1; v <= (int)bins_y; ++v) {
         float left = 0.0f;

@@ -7,10 +7,6 @@
 
 #include "subpixel/display.h"
 
-/* Floats of a pixel: mean radiance and alpha of its bins; where the tangent touches; what a display shows of
- * that; the share of noise. */
-#define NOISE_RECORD 13
-#define NOISE_MOST_BINS 16 /* along an axis of a pixel */
 /* The tangent is a chord of this share of the way to the bin: every tone map has one. */
 #define NOISE_CHORD 0.03125f
 

@@ -86,7 +86,7 @@ std::vector<dvec3> screen_flux(const std::optional<LightSpectrum>& spectrum, uns
     settings.photons = 1 << 18;
     settings.max_depth = 4;  // what is reflected within the prism, or between the screen and it, is left out
     Renderer renderer(test_device(), scene, settings);
-    EXPECT_GT(renderer.photons(), 0u) << renderer.integrator();
+    EXPECT_GT(renderer.photons(), 0u) << renderer.packed().integrator;
     renderer.render({0, spp}, [](const Progress&) { return true; });
     const Film film = renderer.film();
     EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);

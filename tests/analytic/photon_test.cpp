@@ -3,7 +3,7 @@
 
 #include "analytic/analytic_scene.h"
 #include "kernels/types.h"
-#include "measure/mean_test.h"
+#include "metric/mean_test.h"
 #include "scene/glass.h"
 
 namespace triad::analytic {
@@ -160,7 +160,7 @@ double floor_radiance(const PunctualLight& light, std::uint32_t seed) {
     settings.view = look_at({0, 3, 0}, {0, 0, 0}, 0.02, 1.0);
     const Scene scene = b.scene;
     Renderer renderer(test_device(), scene, settings);
-    EXPECT_GT(renderer.photons(), 0u) << renderer.integrator();
+    EXPECT_GT(renderer.photons(), 0u) << renderer.packed().integrator;
     renderer.render({0, 64}, [](const Progress&) { return true; });
     const Film film = renderer.film();
     double sum = 0;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/math.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "render/reconstruction.h"
+#include "display/reconstruction.h"
 
 using namespace triad;
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "device/device.h"
-#include "measure/tune.h"
+#include "trace/tune.h"
 
 namespace triad {
 

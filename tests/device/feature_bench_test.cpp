@@ -1,9 +1,9 @@
 // The scenes that triad bench features compares.
 #include <gtest/gtest.h>
 
+#include "bench/feature_bench.h"
+#include "bench/feature_scenes.h"
 #include "device_fixture.h"
-#include "measure/feature_bench.h"
-#include "measure/feature_scenes.h"
 #include "render/renderer.h"
 
 namespace triad {

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "device_fixture.h"
-#include "render/reconstruction.h"
+#include "display/reconstruction.h"
 
 using namespace triad;
 

@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "analytic/analytic_scene.h"
+#include "pack/pack.h"
+#include "pack/ray_filter.h"
 #include "panel/pixel_filter.h"
-#include "render/pack.h"
-#include "render/ray_filter.h"
 #include "same_film.h"
 
 namespace triad {

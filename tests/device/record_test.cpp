@@ -6,7 +6,7 @@
 
 #include "analytic/analytic_scene.h"
 #include "kernels/types.h"
-#include "measure/pixel_report.h"
+#include "render/pixel_report.h"
 
 namespace triad {
 namespace {
@@ -31,7 +31,7 @@ Recorded record(Scene scene, unsigned x, unsigned y, unsigned bins, unsigned max
     settings.spectral = spectral;
     Renderer renderer(test_device(), scene, settings);
     renderer.render(range, [](const Progress&) { return true; });
-    Recorded r{renderer.film(), {}, renderer.light_sources(), report_pixel(renderer, 0, 0, range, 7)};
+    Recorded r{renderer.film(), {}, renderer.packed().light_sources, report_pixel(renderer, 0, 0, range, 7)};
     renderer.record_pixel(0, 0, range, [&](const RecordedPath& path) { r.paths.push_back(path); });
     return r;
 }

@@ -5,7 +5,7 @@
 
 #include "analytic/analytic_scene.h"
 #include "base/parallel_for.h"
-#include "measure/perceived_sets.h"
+#include "display/perceived_sets.h"
 #include "same_film.h"
 
 namespace triad {

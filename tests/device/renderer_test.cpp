@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "analytic/analytic_scene.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 #include "same_film.h"
 
 namespace triad {
@@ -55,7 +55,7 @@ TEST(Renderer, wavelengths_change_no_bit_where_nothing_disperses) {
     Scene dispersive = scene;
     for (Material& m : dispersive.materials)
         if (m.transmission > 0) m.dispersion = Dispersion{Dispersion::Law::cauchy, 0, {1.4, 0.03}, {}};
-    EXPECT_FALSE(features_of(scene, settings, PackedScene{}).dispersion)
+    EXPECT_FALSE(features_of(pack(scene, settings), settings).dispersion)
         << "the same program, so the same speed";
     expect_same_bytes(off, film(dispersive, Spectral::off, Features{}), "dispersion turned off");
     expect_same_bytes(film(dispersive, Spectral::automatic, {}),

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "device_fixture.h"
+#include "display/resolve.h"
 #include "kernels/types.h"
-#include "render/resolve.h"
 
 using namespace triad;
 

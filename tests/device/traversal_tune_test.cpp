@@ -8,7 +8,7 @@
 
 #include "check/tracer.h"
 #include "device_fixture.h"
-#include "measure/tune.h"
+#include "trace/tune.h"
 
 using namespace triad;
 using namespace triad::traversal_case;

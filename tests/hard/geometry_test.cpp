@@ -8,7 +8,7 @@
 #include "double_tracer.h"
 #include "hard_scene.h"
 #include "kernels/types.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 
 namespace triad::hard {
 namespace {

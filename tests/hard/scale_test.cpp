@@ -3,7 +3,7 @@
 
 #include "double_tracer.h"
 #include "hard_scene.h"
-#include "measure/statistics.h"
+#include "metric/statistics.h"
 
 namespace triad::hard {
 namespace {

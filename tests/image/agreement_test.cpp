@@ -2,10 +2,10 @@
 // are fixed, and equal pictures would be called different once in a million seeds.
 #include <gtest/gtest.h>
 
+#include "display/perceived_sets.h"
 #include "kernels/types.h"
 #include "lit_room.h"
-#include "measure/perceived_sets.h"
-#include "measure/statistics.h"
+#include "metric/statistics.h"
 
 namespace triad::analytic {
 namespace {

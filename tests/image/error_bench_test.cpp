@@ -4,10 +4,10 @@
 
 #include <cmath>
 
+#include "bench/error_curves.h"
+#include "bench/error_runs.h"
+#include "display/resolve.h"
 #include "lit_room.h"
-#include "measure/error_curves.h"
-#include "measure/error_runs.h"
-#include "render/resolve.h"
 
 namespace triad::analytic {
 namespace {

@@ -9,10 +9,10 @@
 #include "../device/device_fixture.h"
 #include "../program.h"
 #include "../unit/temporary_folder.h"
-#include "app/experiment.h"
-#include "app/prepare.h"
+#include "session/prepare.h"
 #include "film_table.h"
 #include "io/io.h"
+#include "kept_options.h"
 #include "render/renderer.h"
 
 namespace triad {
@@ -20,8 +20,6 @@ namespace triad {
 void PrintTo(const FilmCase& c, std::ostream* out) { *out << c.options; }
 
 namespace {
-
-bool renewing() { return std::getenv("TRIAD_RENEW") != nullptr; }
 
 const FilmTable& table() {
     static const FilmTable loaded = load_film_table();
@@ -71,7 +69,7 @@ class FilmHashes : public testing::TestWithParam<FilmCase> {};
 
 TEST_P(FilmHashes, are_those_of_the_table) {
     FilmCase c = GetParam();
-    if (const auto reason = why_not(c)) GTEST_SKIP() << *reason;
+    if (const auto reason = why_not(c.options)) GTEST_SKIP() << *reason;
     const Film film = film_of(c);
     const ArrayHashes found = hashes_of(film);
     const std::string differs = differences(found, c.expected);
@@ -91,17 +89,7 @@ INSTANTIATE_TEST_SUITE_P(Table, FilmHashes, testing::ValuesIn(table().cases),
 
 /// The same film, in several pieces on a device that allocates little.
 Film film_in_bands(const FilmCase& c) {
-    NamedOptions scene{c.name, {}};
-    std::string text = with_folders(c.options);
-    std::erase(text, '\'');
-    std::istringstream words(text);
-    for (std::string word; words >> word;) {
-        if (word == "--spp" || word == "--adaptive")
-            words >> word;  // those of the goal below
-        else
-            scene.arguments.push_back(word);
-    }
-    const RenderOptions options = render_options({}, scene, {});
+    const RenderRequest options = scene_options(c.name, c.options);
     Device small = limited_device(900'000);
     const Scene loaded = load_scene(options);
     Renderer renderer(small, loaded, settings_of(options, loaded));

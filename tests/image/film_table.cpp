@@ -1,14 +1,11 @@
 #include "film_table.h"
 
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
-#include "../generated_scenes.h"
-#include "../unit/test_assets.h"
 #include "base/hash.h"
-
-namespace fs = std::filesystem;
 
 namespace triad {
 namespace {
@@ -43,11 +40,6 @@ std::optional<FilmCase> read_case(const std::string& line) {
 std::string line_of(const FilmCase& c) {
     return c.expected.sums + " " + c.expected.half_sums + " " + c.expected.samples + " " + c.name + ": " +
            c.options;
-}
-
-const fs::path& hard_scenes() {
-    static const fs::path folder = hard::generated("");
-    return folder;
 }
 
 }  // namespace
@@ -86,28 +78,6 @@ void renew(const FilmCase& changed, const std::string& driver) {
     std::ofstream file(film_table_file);
     for (const std::string& line : lines) file << line << "\n";
     if (!file.flush()) throw std::runtime_error("cannot write " + film_table_file.string());
-}
-
-std::string with_folders(const std::string& options) {
-    std::string text = options;
-    const auto replace = [&](const std::string& name, const auto& folder) {
-        for (std::size_t at; (at = text.find(name)) != std::string::npos;)
-            text.replace(at, name.size(), "'" + fs::path(folder()).string() + "'");
-    };
-    replace("$SCENES", [] { return TRIAD_SCENES; });
-    replace("$ODDS", [] { return TRIAD_SOURCE_DIR "/tests/image/odds.gltf"; });
-    replace("$ASSETS", test_assets);
-    replace("$HARD", hard_scenes);
-    return text;
-}
-
-std::optional<std::string> why_not(const FilmCase& of) {
-    if (of.options.find("$ASSETS") != std::string::npos && !fs::exists(test_assets()))
-        return "There are no test models at " + test_assets().string() +
-               "; TRIAD_TEST_ASSETS names another folder.";
-    if (of.options.find("$HARD") != std::string::npos && !hard::why_no_scenes().empty())
-        return hard::why_no_scenes();
-    return {};
 }
 
 }  // namespace triad

@@ -1,7 +1,6 @@
 #pragma once
 /// film_hashes.txt: what arrays the films of many scenes and options have.
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,8 @@ std::string differences(const ArrayHashes& a, const ArrayHashes& b);
 
 struct FilmCase {
     std::string name;
-    /// Of `triad render`; $SCENES, $HARD, $ASSETS and $ODDS are files and folders. What stands after each |,
-    /// if any, makes a part of its own, and the parts are merged.
+    /// Of `triad render`, with the names of kept_options.h. What stands after each |, if any, makes a part of
+    /// its own, and the parts are merged.
     std::string options;
     ArrayHashes expected;
 };
@@ -36,10 +35,5 @@ inline const std::filesystem::path film_table_file = TRIAD_SOURCE_DIR "/tests/im
 FilmTable load_film_table();
 /// Replaces the hashes of one case in the file, and the driver.
 void renew(const FilmCase& changed, const std::string& driver);
-
-/// The options with folders in place of their names. Writes the hard scenes first if they are named.
-std::string with_folders(const std::string& options);
-/// Why this case cannot be rendered here; none: it can.
-std::optional<std::string> why_not(const FilmCase& of);
 
 }  // namespace triad

@@ -1,8 +1,8 @@
 // The noise that an eye sees on a panel, as a render reports it.
 #include <gtest/gtest.h>
 
+#include "display/perceived_noise.h"
 #include "lit_room.h"
-#include "measure/perceived_noise.h"
 #include "panel/perceived.h"
 
 namespace triad::analytic {

@@ -1,5 +1,5 @@
 // Where adaptive sampling for a panel sends samples, and what that is worth.
-#include "measure/perceived_sets.h"
+#include "display/perceived_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "../device/device_fixture.h"
-#include "app/experiment.h"
-#include "app/prepare.h"
-#include "app/suite.h"
+#include "cli/experiment.h"
+#include "cli/suite.h"
 #include "render/renderer.h"
+#include "session/prepare.h"
 
 namespace triad {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 class Suite : public testing::TestWithParam<NamedOptions> {};
 
 TEST_P(Suite, specialised_and_general_program_give_the_same_bits) {
-    const RenderOptions options = render_options({}, GetParam(), {});
+    const RenderRequest options = render_options({}, GetParam(), {});
     const Scene scene = load_scene(options);
     RenderSettings settings = settings_of(options, scene);
     settings.width = 32, settings.height = 18;

@@ -39,7 +39,7 @@ const Fault faults[] = {
      "(RandomLanes)(s->index_reversed)", "C18d"},
     {"photon_cells_share_buckets", "shading/photon_map.h", "((uint)cell.y & 1u) << 1",
      "((uint)cell.y & 1u) << 2", "P1"},
-    {"clamped_roulette", "shading/path.cl", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
+    {"clamped_roulette", "path/survive.h", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
     {"swapped_tangent", "common/frame.h", "(v.x, f->x, vec3_fma_scale(v.y, f->y",
      "(v.x, f->y, vec3_fma_scale(v.y, f->x", "C22"},
     {"wrong_eta_side", "shading/bsdf.h", "in->inside ? 1.0f / in->ior : in->ior",

@@ -1,7 +1,7 @@
 // Distributions in integers: what may be picked, and what may not.
 #include <gtest/gtest.h>
 
-#include "render/pack.h"
+#include "pack/pack.h"
 
 namespace triad {
 namespace {

@@ -1,5 +1,5 @@
 // From rows to curves, to CSV and back, and against older rows.
-#include "measure/error_curves.h"
+#include "bench/error_curves.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "base/error.h"
-#include "measure/error_csv.h"
+#include "bench/error_csv.h"
 
 namespace triad {
 namespace {

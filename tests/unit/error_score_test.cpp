@@ -1,4 +1,4 @@
-#include "measure/error_score.h"
+#include "bench/error_score.h"
 
 #include <gtest/gtest.h>
 

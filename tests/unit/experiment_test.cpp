@@ -1,5 +1,5 @@
 // Scenes and settings of benches are options of triad render: what is typed there is what counts here.
-#include "app/experiment.h"
+#include "cli/experiment.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ TEST(Experiment, the_setting_overrules_the_scene_and_the_scene_what_is_common) {
     EXPECT_EQ(size("a.glb", "x:"), uvec2(8, 8));
     EXPECT_EQ(size("a: a.glb --size 9x9", "x:"), uvec2(9, 9));
     EXPECT_EQ(size("a: a.glb --size 9x9", "x: --size 7x7"), uvec2(7, 7));
-    const RenderOptions o =
+    const RenderRequest o =
         render_options({}, parse_scene("a.glb"), parse_setting("x: --sampler independent"));
     EXPECT_TRUE(o.independent);
     EXPECT_EQ(o.scene_path, "a.glb");

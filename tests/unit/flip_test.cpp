@@ -1,5 +1,5 @@
 // FLIP against the values of its authors' own program.
-#include "measure/flip.h"
+#include "metric/flip.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "app/prepare.h"
 #include "base/files.h"
 #include "gltf_builder.h"
+#include "session/prepare.h"
 
 namespace triad {
 namespace {

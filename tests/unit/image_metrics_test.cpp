@@ -1,5 +1,5 @@
 // Metrics against values computed by hand.
-#include "measure/image_metrics.h"
+#include "metric/image_metrics.h"
 
 #include <gtest/gtest.h>
 

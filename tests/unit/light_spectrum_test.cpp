@@ -5,7 +5,7 @@
 
 #include "base/files.h"
 #include "gltf_builder.h"
-#include "render/pack.h"
+#include "pack/pack.h"
 #include "scene/spectral_data.h"
 
 namespace triad {
@@ -21,7 +21,7 @@ LightSpectrum lines(std::vector<LightSpectrum::Line> list) { return {Law::lines,
 dvec3 colour_of(const LightSpectrum& spectrum, Spectral spectral = Spectral::off) {
     Scene scene;
     scene.lights.push_back({.spectrum = spectrum});
-    PackedScene packed;
+    PackedSurfaces packed;
     RenderSettings settings;
     settings.spectral = spectral;
     pack_spectrum(scene, settings, packed);
@@ -95,7 +95,7 @@ TEST(LightSpectrum, one_spectrum_is_packed_once_and_only_for_lights) {
     scene.materials[0].emission_spectrum = blackbody(3000);
     scene.materials[1].emission_spectrum = blackbody(4000);  // emits nothing
     for (const bool full : {false, true}) {
-        PackedScene packed;
+        PackedSurfaces packed;
         RenderSettings settings;
         settings.spectral = full ? Spectral::full : Spectral::automatic;
         pack_materials(scene, packed);

@@ -1,6 +1,6 @@
 // Is the mean of some films the reference's picture? Of equal pictures that is seldom denied, whatever their
 // noise.
-#include "measure/mean_test.h"
+#include "metric/mean_test.h"
 
 #include <gtest/gtest.h>
 

@@ -5,10 +5,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/panel_report.h"
 #include "io/io.h"
 #include "panel/panel.h"
 #include "program.h"
+#include "report/panel_report.h"
 #include "temporary_folder.h"
 
 using namespace triad;

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "app/panel_file.h"
 #include "base/error.h"
+#include "session/panel_file.h"
 #include "temporary_folder.h"
 
 using namespace triad;

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "render/reconstruction.h"
+#include "display/reconstruction.h"
 
 using namespace triad;
 

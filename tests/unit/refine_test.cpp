@@ -1,5 +1,5 @@
 // Huge triangles beside the eye: cut without cracks, area or order lost.
-#include "render/refine.h"
+#include "pack/refine.h"
 
 #include <gtest/gtest.h>
 

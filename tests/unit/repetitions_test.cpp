@@ -1,5 +1,5 @@
 // Numbers from repeated measurements: closed forms, and intervals that hold what they promise.
-#include "measure/repetitions.h"
+#include "bench/repetitions.h"
 
 #include <gtest/gtest.h>
 

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/child_process.h"
-#include "app/error_pictures.h"
-#include "app/error_plots.h"
-#include "app/error_report.h"
-#include "app/error_words.h"
-#include "app/html.h"
+#include "base/child_process.h"
 #include "base/files.h"
 #include "io/io.h"
+#include "report/error_pictures.h"
+#include "report/error_plots.h"
+#include "report/error_report.h"
+#include "report/error_words.h"
+#include "report/html.h"
 
 namespace triad {
 namespace {

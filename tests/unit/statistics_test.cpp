@@ -1,6 +1,6 @@
 // Student's t against closed forms and published values, and the comparison of pictures on synthetic noise:
 // it must find what differs and leave alone what does not.
-#include "measure/statistics.h"
+#include "metric/statistics.h"
 
 #include <gtest/gtest.h>
 

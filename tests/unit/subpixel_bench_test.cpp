@@ -1,5 +1,5 @@
 // The scores of the subpixel bench: tiles, intervals, pairs, and what stands in the files.
-#include "measure/subpixel_bench.h"
+#include "bench/subpixel_bench.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/subpixel_report.h"
+#include "report/subpixel_report.h"
 
 using namespace triad;
 

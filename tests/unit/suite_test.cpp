@@ -1,12 +1,12 @@
 // The default suite: everything is there, reads without a warning, and stays small.
-#include "app/suite.h"
+#include "cli/suite.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "app/child_process.h"
-#include "app/experiment.h"
+#include "base/child_process.h"
+#include "cli/experiment.h"
 #include "io/io.h"
 
 namespace triad {
@@ -33,7 +33,7 @@ TEST(Suite, TenScenesWithOptionsThatRenderKnows) {
 
 TEST(Suite, FilesReadWithoutWarningsAndHaveOneCamera) {
     for (const NamedOptions& scene : suite_scenes(folder)) {
-        const RenderOptions options = render_options({}, scene, {"default", {}});
+        const RenderRequest options = render_options({}, scene, {"default", {}});
         if (options.scene_path.empty()) continue;
         GltfReport report;
         Scene loaded = load_gltf(options.scene_path, {}, &report);
@@ -54,7 +54,7 @@ TEST(Suite, FilesAreWhatTheGeneratorWrites) {
                     made.path() / "out", made.path() / "log");
     if (status != 0) GTEST_SKIP() << "python3 with numpy is not installed (Debian: python3-numpy)";
     for (const NamedOptions& scene : suite_scenes(folder)) {
-        const RenderOptions options = render_options({}, scene, {"default", {}});
+        const RenderRequest options = render_options({}, scene, {"default", {}});
         const fs::path file = fs::path(options.scene_path).filename();
         if (options.scene_path.empty() || file == "cornell.gltf") continue;
         // Sines may differ in their last bit between machines: what is built of them, not.

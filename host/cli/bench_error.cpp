@@ -1,0 +1,280 @@
+#include "cli/bench_error.h"
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+
+#include "base/files.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "bench/error_csv.h"
+#include "bench/error_curves.h"
+#include "bench/error_runs.h"
+#include "cli/experiment.h"
+#include "report/bench_tables.h"
+#include "report/error_report.h"
+#include "session/prepare.h"
+#include "session/reference_store.h"
+
+namespace fs = std::filesystem;
+
+namespace triad {
+namespace {
+
+std::vector<NamedOptions> named_scenes(const BenchErrorOptions& o) {
+    std::vector<NamedOptions> scenes;
+    for (const std::string& text : o.scenes) scenes.push_back(parse_scene(text));
+    if (scenes.empty()) scenes.push_back({"built-in", {}});
+    return scenes;
+}
+
+std::vector<NamedOptions> named_settings(const BenchErrorOptions& o) {
+    std::vector<NamedOptions> settings;
+    for (const std::string& text : o.settings) settings.push_back(parse_setting(text));
+    if (settings.empty()) settings.push_back({o.compare.empty() ? "default" : "", {}});
+    for (const std::string& text : o.compare) settings = compare(settings, text);
+    return settings;
+}
+
+/// Results are told apart by these names.
+void require_different(const std::vector<NamedOptions>& all, const std::string& what) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (all[i].name == all[j].name)
+                throw Error(Exit::usage, "Two " + what + " are called " + all[i].name +
+                                             "; give one another name: \"NAME: ...\".");
+}
+
+/// --reference-spp, or so much that the reference's variance is small beside that of the last budget.
+std::uint64_t reference_spp(const BenchErrorOptions& o) {
+    return o.reference_spp ? o.reference_spp : std::max<std::uint64_t>(1024, 8 * o.spp);
+}
+
+class Bench {
+  public:
+    explicit Bench(const BenchErrorOptions& options)
+        : o_(options), scenes_(named_scenes(options)), settings_(named_settings(options)) {
+        require_different(scenes_, "scenes");
+        require_different(settings_, "settings");
+        // Every slip is found before the long part.
+        for (const NamedOptions& scene : scenes_)
+            for (const NamedOptions& setting : settings_) parsed(scene, setting);
+    }
+
+    ErrorBench run() {
+        ErrorBench bench;
+        bench.repetitions = o_.repetitions;
+        for (const NamedOptions& setting : settings_) {
+            const RenderRequest options = parsed(scenes_.front(), setting);
+            const DeviceInfo& device = device_of(options).info();
+            if (bench.settings.empty()) bench.device = device;
+            bench.settings.push_back({setting.name, setting.text(), device.name, device.driver});
+        }
+        for (const NamedOptions& scene : scenes_)
+            if (!run(scene, bench)) {
+                bench.interrupted = true;
+                break;
+            }
+        fit_curves(bench);
+        return bench;
+    }
+
+  private:
+    const BenchErrorOptions& o_;
+    const std::vector<NamedOptions> scenes_, settings_;
+    std::map<std::pair<std::string, unsigned>, std::unique_ptr<Device>> devices_;
+    const InterruptGuard guard_;
+
+    RenderRequest parsed(const NamedOptions& scene, const NamedOptions& setting) const {
+        std::vector<std::string> common = CLI::detail::split_up("--size " + o_.size + " " + o_.common);
+        return render_options(common, scene, setting);
+    }
+
+    Device& device_of(const RenderRequest& options) {
+        auto& device = devices_[{options.device, options.threads}];
+        if (!device) device = std::make_unique<Device>(open_device(options));
+        return *device;
+    }
+
+    /// One scene; false: interrupted.
+    bool run(const NamedOptions& name, ErrorBench& bench) {
+        inform("Scene " + name.name);
+        std::vector<ErrorCase> cases;
+        const RenderRequest first = parsed(name, settings_.front());
+        const Scene scene = load_scene(first);
+        for (std::size_t i = 0; i < settings_.size(); ++i) {
+            const RenderRequest options = parsed(name, settings_[i]);
+            if (options.scene_path != first.scene_path || options.env_path != first.env_path ||
+                options.scene_index != first.scene_index || options.glass != first.glass)
+                throw Error(Exit::usage,
+                            "Setting " + settings_[i].name +
+                                ": file, --scene, --env and --glass belong to the scene, not to a setting.");
+            const OutputStyle style = options.style;
+            cases.push_back({bench.settings[i], &device_of(options), settings_of(options, scene),
+                             options.adaptive.value_or(false), [style](Device& device, const Film& film) {
+                                 return rgb_of(film, display_of(device, film, style));
+                             }});
+        }
+        ErrorScene described;
+        described.name = name.name, described.options = name.text();
+        described.scene_hash = hash_of(scene);
+        const ErrorPlan plan{o_.spp, o_.time, o_.repetitions, o_.seed, reference_spp(o_), o_.own_references};
+        ProgressDisplay display(progress_style(o_.progress));
+        const ErrorBenchHost host{load_reference, keep_reference,
+                                  [&](const Progress& p, double before) {
+                                      display.update({.done = p.done,
+                                                      .seconds = p.seconds,
+                                                      .seconds_left = p.seconds_left,
+                                                      .spp = before + p.samples,
+                                                      .relmse = p.relmse,
+                                                      .trend = p.trend});
+                                      return !guard_.interrupted();
+                                  },
+                                  [&] { return !guard_.interrupted(); },
+                                  [&](const ErrorRun& run) { say(run); }};
+        return run_errors(plan, described, scene, std::move(cases), host, bench);
+    }
+
+    void say(const ErrorRun& run) const {
+        char text[300];
+        std::snprintf(text, sizeof text, "%s, repetition %u of %u, %s: %.6g spp in %.2f s, relMSE %.3g",
+                      run.scene.c_str(), run.repetition + 1, o_.repetitions, run.setting.c_str(), run.spp,
+                      run.seconds, run.relmse);
+        inform(text);
+    }
+
+    static RgbImage rgb_of(const Film& film, const std::vector<float>& rgba) {
+        RgbImage image{film.width, film.height, std::vector<float>(film.pixels() * 3)};
+        for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = rgba[i / 3 * 4 + i % 3];
+        return image;
+    }
+};
+
+void write_bench(const ErrorBench& bench, const std::vector<SettingScore>& scores, const std::string& json,
+                 const std::string& csv) {
+    if (!json.empty())
+        write_report(json, "bench-error", &bench.device, rows_of(bench), details_of(bench, scores));
+    if (csv == "-")
+        std::fputs(csv_of(bench.runs).c_str(), stdout);
+    else if (!csv.empty())
+        write_file(csv, csv_of(bench.runs));
+}
+
+}  // namespace
+
+ErrorBench measure_errors(const BenchErrorOptions& o) {
+    if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
+    std::vector<ErrorRun> before;
+    if (!o.against.empty()) {
+        const auto bytes = read_file(o.against);
+        before = runs_from_csv(o.against, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    ErrorBench bench = Bench(o).run();
+    bench.changes = changes_of(before, bench.runs);
+    if (!o.against.empty() && bench.changes.empty())
+        warn(o.against + " has no scene and setting in common with this bench that could be compared.");
+    return bench;
+}
+
+Exit run_bench_error(const BenchErrorOptions& o) {
+    for (const std::string& path : {o.csv, o.json})
+        if (!path.empty()) check_writable(path);
+    if (!o.folder.empty()) fs::create_directories(o.folder);
+    const ErrorBench bench = measure_errors(o);
+    const std::vector<SettingScore> scores =
+        o.baselines.empty() ? std::vector<SettingScore>{} : score_settings(bench, o.baselines);
+    if (o.json != "-" && o.csv != "-") std::fputs((table_of(bench) + table_of(scores)).c_str(), stdout);
+    if (!o.folder.empty()) {
+        const fs::path folder = o.folder;
+        write_bench(bench, scores, folder / "report.json", folder / "runs.csv");
+        write_error_report(folder, bench, {o.title, command_words(), date_words(), scores});
+    }
+    write_bench(bench, scores, o.json, o.csv);
+    std::string wrong, worse;
+    for (const ErrorCurve& c : bench.curves)
+        if (!c.right) wrong += (wrong.empty() ? "" : "; ") + c.scene + ", " + c.setting;
+    for (const ErrorChange& c : bench.changes)
+        if (c.verdict == ErrorChange::Verdict::worse)
+            worse += (worse.empty() ? "" : "; ") + c.scene + ", " + c.setting;
+    if (!wrong.empty())
+        throw Error(Exit::comparison,
+                    "The picture is not the reference's, and the numbers are void: " + wrong + ".");
+    if (!worse.empty() && o.fail_if_worse)
+        throw Error(Exit::comparison, "Worse than " + o.against + ": " + worse + ".");
+    if (!bench.interrupted) return Exit::done;
+    inform("Stopped early: what was measured until then is above.");
+    return Exit::interrupted;
+}
+
+void declare(CLI::App& command, BenchErrorOptions& o) {
+    command
+        .add_option(
+            "--setting", o.settings,
+            "\"NAME: OPTIONS\": options of triad render to compare; several allowed, the first is the "
+            "one that times are compared with")
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
+    command
+        .add_option("--compare", o.compare,
+                    "Like roulette=0.5,1: every setting with each of these values; several allowed")
+        ->allow_extra_args(false)
+        ->type_name("OPTION=V,V...");
+    command.add_option("--options", o.common, "Options of triad render for every run")->type_name("TEXT");
+    command.add_option("--repetitions", o.repetitions, "Runs of each setting, with a seed each (default 5)")
+        ->check(CLI::Range(1, 10000))
+        ->type_name("N");
+    command.add_option("--seed", o.seed, "Of the first repetition; the others count on (default 1)")
+        ->check(CLI::Range(0, 1 << 30))
+        ->type_name("N");
+    command
+        .add_option("--against", o.against, "runs.csv of an earlier bench: say what became better or worse")
+        ->check(CLI::ExistingFile)
+        ->type_name("CSV");
+    command.add_flag("--fail-if-worse", o.fail_if_worse, "Exit 7 when something is worse than --against");
+    command
+        .add_option("-o,--output", o.folder, "Folder for report.html, its plots, report.json and runs.csv")
+        ->type_name("FOLDER");
+    command.add_option("--csv", o.csv, "Write the runs as CSV (-: standard output)")->type_name("FILE");
+    command.add_option("--json", o.json, "Write curves as JSON (-: standard output)")->type_name("FILE");
+    command.add_option("--kernels", o.kernels, "Read kernel source from here instead of the copy inside")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR");
+    command.add_option("--progress", o.progress, "Of references: auto, bar, lines, json or none")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+        ->type_name("STYLE");
+}
+
+void add_bench_error(CLI::App& bench, Exit& exit) {
+    auto o = std::make_shared<BenchErrorOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "error", "Error against samples and time, of scenes and settings, to references that it renders");
+    command
+        ->add_option(
+            "SCENES", o->scenes,
+            "FILE, or \"NAME: FILE OPTIONS\" with options of triad render (default: the built-in scene)")
+        ->type_name("");
+    command->add_option("--size", o->size, "Of the pictures, unless a scene says otherwise (default 256x256)")
+        ->type_name("WxH");
+    command->add_option("--spp", o->spp, "Samples per pixel of the last budget: 1, 2, 4 ... N (default 64)")
+        ->check(CLI::Range(1, 1 << 24))
+        ->type_name("N");
+    command->add_option("--time", o->time, "Begin no budget that would make a run longer than this")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    command
+        ->add_option("--reference-spp", o->reference_spp,
+                     "Samples per pixel of the references at least (default 8 times --spp, 1024 at least)")
+        ->check(CLI::Range(2, 1 << 29))
+        ->type_name("N");
+    command->add_flag(
+        "--own-references", o->own_references,
+        "A reference for every setting, instead of the first setting's for all: where they are not "
+        "meant to show one picture");
+    declare(*command, *o);
+    command->callback([o, &exit] { exit = run_bench_error(*o); });
+}
+
+}  // namespace triad

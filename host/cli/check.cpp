@@ -1,0 +1,92 @@
+// triad check: is this device right? Known answers through the real kernels.
+#include <cstdio>
+#include <memory>
+
+#include "base/log.h"
+#include "check/check.h"
+#include "check/verdict.h"
+#include "cli/command_line.h"
+#include "report/report.h"
+#include "trace/tune.h"
+
+namespace triad {
+namespace {
+
+struct CheckOptions {
+    std::string device, json, kernels;
+    std::vector<std::string> only;
+    unsigned threads = 0;
+    CheckLevel level = CheckLevel::standard;
+};
+
+void print(const CheckResult& r) {
+    if (!r.ok)
+        std::printf("%-62s %10s %10s  not applicable\n", r.name.c_str(), "", "");
+    else
+        std::printf("%-62s %10.3g %10.3g  %s\n", r.name.c_str(), r.value, r.bound, *r.ok ? "ok" : "WRONG");
+    for (const std::string& failure : r.failures) std::printf("    %s\n", failure.c_str());
+    std::fflush(stdout);
+    detail(r.name + ": " + std::to_string(r.seconds) + " s" + (r.what.empty() ? "" : "; " + r.what));
+}
+
+Exit run(const CheckOptions& o) {
+    if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
+    Device device = Device::open({.selector = o.device, .threads = o.threads});
+    if (o.level != CheckLevel::tiny) ensure_tuned(device);
+    const bool lines = o.json != "-";
+    if (lines) {
+        std::printf("%s, %s, driver %s\n", device.info().name.c_str(), device.info().platform.c_str(),
+                    device.info().driver.c_str());
+        for (const std::string& setting : device.info().settings) std::printf("%s\n", setting.c_str());
+        std::printf("%-62s %10s %10s\n", "case", "value", "bound");
+    }
+    std::vector<CheckResult> results =
+        run_cases(device, cases_of(o.level, o.only), o.level, [&](const CheckResult& r) {
+            if (lines) print(r);
+        });
+    Json rows = Json::array();
+    std::size_t wrong = 0, absent = 0;
+    for (const CheckResult& r : results) {
+        wrong += r.ok == false, absent += !r.ok;
+        rows.push_back({{"case", r.name},
+                        {"value", r.ok && std::isfinite(r.value) ? Json(r.value) : Json()},
+                        {"bound", r.ok ? Json(r.bound) : Json()},
+                        {"ok", r.ok ? Json(*r.ok) : Json()},
+                        {"what", r.what},
+                        {"failures", r.failures},
+                        {"seconds", r.seconds}});
+    }
+    if (!o.json.empty()) write_report(o.json, "check", &device.info(), rows);
+    if (o.only.empty() && o.level != CheckLevel::tiny) keep_verdict(device.info(), verdict_of(results));
+    const std::string counts = std::to_string(results.size() - wrong - absent) + " right, " +
+                               std::to_string(wrong) + " wrong, " + std::to_string(absent) +
+                               " not applicable";
+    if (wrong > 0)
+        throw Error(Exit::device, device.info().name + " with driver " + device.info().driver +
+                                      " is wrong: " + counts + ".");
+    if (lines) std::printf("%s\n", counts.c_str());
+    return Exit::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<CheckOptions>();
+    CLI::App* command = app.add_subcommand("check", "Prove a device and its driver by known answers");
+    command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
+    command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
+    CLI::App* level = command->add_option_group("level")->require_option(0, 1);
+    const auto at = [&](const char* name, CheckLevel value, const char* words) {
+        level->add_flag_callback(
+            name, [o, value] { o->level = value; }, words);
+    };
+    at("--quick", CheckLevel::quick, "About 10 s instead of a minute");
+    at("--full", CheckLevel::full, "Every case with all its work");
+    at("--tiny", CheckLevel::tiny, "The quick cases with a thousandth of the work: for simulators");
+    command->add_option("--case", o->only, "Only the cases of these ids, like C1 or D4")->delimiter(',');
+    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)");
+    command->add_option("--kernels", o->kernels, "Read the kernels from this folder");
+    command->callback([o, &exit] { exit = run(*o); });
+}
+
+}  // namespace triad

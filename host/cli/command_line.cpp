@@ -1,0 +1,85 @@
+#include "cli/command_line.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "base/colour.h"
+#include "base/log.h"
+
+namespace triad {
+namespace {
+
+[[noreturn]] void bad(const std::string& option, const std::string& value, const std::string& expected) {
+    throw Error(Exit::usage, option + " " + (value.empty() ? "''" : value) + ": expected " + expected + ".");
+}
+
+/// The whole of `text` as a number, or nothing.
+template <class T>
+std::optional<T> number(std::string_view text) {
+    T value{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+}  // namespace
+
+void add_common(CLI::App& command) {
+    command.add_flag_callback(
+        "-q,--quiet", [] { set_log_level(0); }, "Errors only");
+    command.add_flag_callback(
+        "-v,--verbose", [] { set_log_level(2); }, "Say more");
+}
+
+uvec2 parse_size(const std::string& option, const std::string& value) {
+    const auto x = value.find('x');
+    const auto width = number<unsigned>(std::string_view(value).substr(0, x));
+    const auto height =
+        x == std::string::npos ? std::nullopt : number<unsigned>(std::string_view(value).substr(x + 1));
+    if (!width || !height) bad(option, value, "WIDTHxHEIGHT, like 1280x720");
+    if (std::min(*width, *height) < 1 || std::max(*width, *height) > 65536)
+        bad(option, value, "numbers from 1 to 65536");
+    return {*width, *height};
+}
+
+SampleRange parse_range(const std::string& option, const std::string& value) {
+    const auto colon = value.find(':');
+    const auto begin = number<std::uint64_t>(std::string_view(value).substr(0, colon));
+    const auto end = colon == std::string::npos
+                         ? std::nullopt
+                         : number<std::uint64_t>(std::string_view(value).substr(colon + 1));
+    if (!begin || !end || *begin >= *end) bad(option, value, "A:B with A below B, like 0:64");
+    return {*begin, *end};
+}
+
+std::vector<double> parse_numbers(const std::string& option, const std::string& value, std::size_t count) {
+    std::vector<double> numbers;
+    for (std::string_view rest = value;;) {
+        const auto comma = rest.find(',');
+        const auto one = number<double>(rest.substr(0, comma));
+        if (!one || !std::isfinite(*one))
+            bad(option, value, std::to_string(count) + " numbers with commas between");
+        numbers.push_back(*one);
+        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma + 1);
+    }
+    if (numbers.size() != count) bad(option, value, std::to_string(count) + " numbers with commas between");
+    return numbers;
+}
+
+vec3 parse_colour(const std::string& option, const std::string& value) {
+    unsigned rgb = 0;
+    const auto [end, error] = std::from_chars(value.data() + 1, value.data() + value.size(), rgb, 16);
+    if (value.size() != 7 || value[0] != '#' || error != std::errc() || end != value.data() + 7)
+        bad(option, value, "a colour like #336699");
+    vec3 linear;
+    for (int c = 0; c < 3; ++c) {
+        const double v = (rgb >> (16 - 8 * c) & 255) / 255.0;
+        linear[c] = static_cast<float>(srgb_decode(v));
+    }
+    return linear;
+}
+
+}  // namespace triad

@@ -1,0 +1,36 @@
+#pragma once
+/// What the subcommands share on the command line. Bad values throw Error(usage) that names option and value.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <string>
+
+#include "base/error.h"
+#include "base/math.h"
+#include "scene/film.h"
+
+namespace triad {
+
+/// One subcommand: adds itself to `app`; when it was chosen, parsing runs it and sets `exit`.
+void add_render(CLI::App& app, Exit& exit);
+void add_info(CLI::App& app, Exit& exit);
+void add_devices(CLI::App& app, Exit& exit);
+void add_check(CLI::App& app, Exit& exit);
+void add_merge(CLI::App& app, Exit& exit);
+void add_resolve(CLI::App& app, Exit& exit);
+void add_compare(CLI::App& app, Exit& exit);
+void add_panel(CLI::App& app, Exit& exit);
+void add_bench(CLI::App& app, Exit& exit);
+
+/// -q and -v.
+void add_common(CLI::App& command);
+
+/// "640x480"; both at least 1 and at most 65536.
+uvec2 parse_size(const std::string& option, const std::string& value);
+/// "A:B", half-open, A < B.
+SampleRange parse_range(const std::string& option, const std::string& value);
+/// Exactly `count` finite numbers with commas between.
+std::vector<double> parse_numbers(const std::string& option, const std::string& value, std::size_t count);
+/// "#RRGGBB" in sRGB, returned linear.
+vec3 parse_colour(const std::string& option, const std::string& value);
+
+}  // namespace triad

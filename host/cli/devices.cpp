@@ -1,0 +1,68 @@
+// triad devices: every platform and device, what each can do, why one is unusable, and what Triad would
+// choose.
+#include <cstdio>
+#include <memory>
+
+#include "base/text.h"
+#include "check/verdict.h"
+#include "cli/command_line.h"
+#include "device/device.h"
+#include "report/report.h"
+
+namespace triad {
+namespace {
+
+void print(const DeviceList& list) {
+    std::printf("  #  type  device\n");
+    for (const DeviceInfo& d : list.devices) {
+        std::printf("%c %2zu  %-4.4s  %s\n", d.preferred ? '*' : ' ', d.index, d.type.c_str(),
+                    d.name.c_str());
+        std::printf("           %s, %s, driver %s\n", d.platform.c_str(), d.c_version.c_str(),
+                    d.driver.c_str());
+        std::printf("           %u compute units, %s (%s at once), correctly rounded divide %s, double %s\n",
+                    d.compute_units, bytes_text(d.memory).c_str(), bytes_text(d.max_allocation).c_str(),
+                    d.correctly_rounded ? "yes" : "no", d.fp64 ? "yes" : "no");
+        for (const std::string& setting : d.settings) std::printf("           %s\n", setting.c_str());
+        if (d.usable) {
+            const auto verdict = load_verdict(d);
+            std::printf("           %s\n", !verdict                 ? "not checked yet (triad check)"
+                                           : verdict->wrong.empty() ? "checked: right"
+                                                                    : "checked: WRONG (triad check)");
+        }
+        if (!d.usable) std::printf("           UNUSABLE: %s\n", d.why_unusable.c_str());
+    }
+    for (const PlatformProblem& p : list.problems)
+        std::printf("     platform %s: %s\n", p.platform.c_str(), p.why.c_str());
+    std::printf("* what Triad chooses; --device takes a number, cpu, gpu, or part of a name\n");
+}
+
+Exit run(const std::string& json) {
+    const DeviceList list = list_devices();
+    Json rows = Json::array();
+    const DeviceInfo* chosen = nullptr;
+    for (const DeviceInfo& device : list.devices) {
+        rows.push_back(to_json(device));
+        if (device.preferred) chosen = &device;
+    }
+    for (const PlatformProblem& problem : list.problems)
+        rows.push_back({{"platform", problem.platform}, {"usable", false}, {"why_unusable", problem.why}});
+    if (json != "-") print(list);
+    if (!json.empty()) write_report(json, "devices", chosen, rows);
+    if (!chosen)
+        throw Error(Exit::device,
+                    "There is no usable OpenCL device. On Debian: apt-get install pocl-opencl-icd makes the "
+                    "CPU one.");
+    return Exit::done;
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app, Exit& exit) {
+    auto json = std::make_shared<std::string>();
+    CLI::App* command =
+        app.add_subcommand("devices", "List OpenCL devices, what each can do, and which one is chosen");
+    command->add_option("--json", *json, "Write the list as JSON (-: standard output)");
+    command->callback([json, &exit] { exit = run(*json); });
+}
+
+}  // namespace triad

@@ -1,0 +1,35 @@
+#pragma once
+/// The words of `triad bench error`: scenes and settings are options of `triad render`, read by its own
+/// parser.
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+
+namespace triad {
+
+/// A scene or a setting: a name and what is added to `triad render`.
+struct NamedOptions {
+    std::string name;
+    std::vector<std::string> arguments;
+    /// The arguments as one line, quoted where a shell would need it.
+    std::string text() const;
+};
+
+/// "FILE", "NAME: FILE OPTIONS" or "NAME: OPTIONS" (the built-in scene); the name of a file is its stem.
+NamedOptions parse_scene(const std::string& text);
+
+/// "NAME: OPTIONS", or options alone, which are then the name too. Throws Error(usage) for an empty name.
+NamedOptions parse_setting(const std::string& text);
+
+/// "roulette=0.5,1": every setting with --roulette 0.5, and every one with --roulette 1. A single nameless
+/// setting takes its name from the value. Throws Error(usage).
+std::vector<NamedOptions> compare(const std::vector<NamedOptions>& settings, const std::string& text);
+
+/// Options of `common`, then of the scene, then of the setting; the last one of a kind counts. Throws
+/// Error(usage) that names the two for a slip, and for options that have no meaning here: those of budgets,
+/// seeds and outputs.
+RenderRequest render_options(const std::vector<std::string>& common, const NamedOptions& scene,
+                             const NamedOptions& setting);
+
+}  // namespace triad

@@ -1,0 +1,144 @@
+// triad info: what is in a scene, before any device is asked.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "base//log.h"
+#include "base/text.h"
+#include "cli/command_line.h"
+#include "io/io.h"
+#include "report/report.h"
+#include "scene/scene.h"
+
+namespace triad {
+namespace {
+
+/// What rendering will hold on the device, within some percent: the structs of kernels/types.h and what
+/// measurement gave for the trees (bytes per triangle).
+constexpr double tree_bytes_per_triangle = 90;
+
+struct Sizes {
+    std::size_t primitives = 0, unique_triangles = 0, triangles = 0, emissive_triangles = 0;
+    std::uint64_t attribute_bytes = 0, texture_bytes = 0, device_bytes = 0;
+};
+
+Sizes sizes_of(const Scene& scene) {
+    Sizes s;
+    auto triangles_of = [](const Mesh& mesh) {
+        std::size_t n = 0;
+        for (const Primitive& p : mesh.primitives) n += p.triangles.size();
+        return n;
+    };
+    for (const Mesh& mesh : scene.meshes) {
+        s.primitives += mesh.primitives.size();
+        s.unique_triangles += triangles_of(mesh);
+        for (const Primitive& p : mesh.primitives)
+            s.attribute_bytes += 12 * (p.positions.size() + p.normals.size()) +
+                                 16 * (p.tangents.size() + p.colours.size()) +
+                                 8 * (p.uvs[0].size() + p.uvs[1].size()) + 12 * p.triangles.size();
+    }
+    for (const MeshInstance& instance : scene.instances) {
+        s.triangles += triangles_of(scene.meshes[instance.mesh]);
+        for (const Primitive& p : scene.meshes[instance.mesh].primitives)
+            if (scene.materials[p.material].emission != vec3(0.0f))
+                s.emissive_triangles += p.triangles.size();
+    }
+    for (const Image& image : scene.images) s.texture_bytes += image.texels.size();
+    s.device_bytes = s.attribute_bytes + s.texture_bytes +
+                     static_cast<std::uint64_t>(tree_bytes_per_triangle * double(s.unique_triangles));
+    return s;
+}
+
+void print_list(const char* title, const std::vector<std::string>& names) {
+    if (names.empty()) return;
+    std::printf("%s", title);
+    for (std::size_t i = 0; i < names.size(); ++i) std::printf("%s%s", i ? ", " : "", names[i].c_str());
+    std::printf("\n");
+}
+
+Exit run(const std::string& path, int scene_index, const std::string& json) {
+    GltfReport report;
+    Scene scene = load_gltf(path, {scene_index}, &report);
+    const std::size_t dropped = validate(scene);
+    if (dropped)
+        report.warnings.push_back(std::to_string(dropped) +
+                                  " triangles have no area or no finite corners and are left out");
+    const Sizes s = sizes_of(scene);
+    const Bounds bounds = bounds_of(scene);
+    if (json != "-") {
+        std::printf("meshes      %zu with %zu primitives, placed %zu times\n", scene.meshes.size(),
+                    s.primitives, scene.instances.size());
+        std::printf("triangles   %zu in meshes, %zu as placed, %zu of them emit\n", s.unique_triangles,
+                    s.triangles, s.emissive_triangles);
+        std::printf("materials   %zu\n", scene.materials.size());
+        std::printf("textures    %zu of %zu images, %s\n", scene.textures.size(), scene.images.size(),
+                    bytes_text(s.texture_bytes).c_str());
+        for (const Image& image : scene.images)
+            std::printf("            %ux%u, %u bits  %s\n", image.width, image.height, image.bits,
+                        image.name.c_str());
+        std::printf("cameras     %zu\n", scene.cameras.size());
+        for (std::size_t i = 0; i < scene.cameras.size(); ++i)
+            std::printf("            %zu \"%s\", %s\n", i, scene.cameras[i].name.c_str(),
+                        scene.cameras[i].orthographic ? "orthographic" : "perspective");
+        std::printf("lights      %zu punctual\n", scene.lights.size());
+        if (!bounds.empty())
+            std::printf("bounds      (%g, %g, %g) to (%g, %g, %g)\n", bounds.lo.x, bounds.lo.y, bounds.lo.z,
+                        bounds.hi.x, bounds.hi.y, bounds.hi.z);
+        std::printf("scenes      %zu, %zu nodes\n", report.scenes, report.nodes);
+        print_list("extensions  ", report.extensions_used);
+        print_list("required    ", report.extensions_required);
+        std::printf("memory      about %s on the device, beside the film\n",
+                    bytes_text(s.device_bytes).c_str());
+        std::printf("faults      %zu\n", report.warnings.size());
+        for (const std::string& warning : report.warnings) std::printf("            %s\n", warning.c_str());
+    }
+    if (json.empty()) return Exit::done;
+    Json cameras = Json::array();
+    for (const SceneCamera& camera : scene.cameras)
+        cameras.push_back(
+            {{"name", camera.name}, {"projection", camera.orthographic ? "orthographic" : "perspective"}});
+    Json row = {{"file", path},
+                {"hash", hash_of(scene)},
+                {"scenes", report.scenes},
+                {"nodes", report.nodes},
+                {"meshes", scene.meshes.size()},
+                {"primitives", s.primitives},
+                {"instances", scene.instances.size()},
+                {"triangles", s.unique_triangles},
+                {"placed_triangles", s.triangles},
+                {"emissive_triangles", s.emissive_triangles},
+                {"materials", scene.materials.size()},
+                {"textures", scene.textures.size()},
+                {"images", scene.images.size()},
+                {"texture_bytes", s.texture_bytes},
+                {"cameras", cameras},
+                {"lights", scene.lights.size()},
+                {"bounds", bounds.empty() ? Json()
+                                          : Json{bounds.lo.x, bounds.lo.y, bounds.lo.z, bounds.hi.x,
+                                                 bounds.hi.y, bounds.hi.z}},
+                {"extensions_used", report.extensions_used},
+                {"extensions_required", report.extensions_required},
+                {"device_bytes", s.device_bytes},
+                {"faults", report.warnings}};
+    write_report(json, "info", nullptr, Json::array({std::move(row)}));
+    return Exit::done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Exit& exit) {
+    struct Options {
+        std::string path, json;
+        int scene = -1;
+    };
+    auto o = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("info", "Show what is in a scene, and its faults");
+    command->add_option("SCENE", o->path, "glTF file, .gltf or .glb")->required()->type_name("");
+    command->add_option("--scene", o->scene, "Which scene of the file (default: the one it names)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("N");
+    command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
+    command->callback([o, &exit] { exit = run(o->path, o->scene, o->json); });
+}
+
+}  // namespace triad

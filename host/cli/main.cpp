@@ -1,0 +1,90 @@
+// The only place that catches, prints and exits.
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+#include "base/text.h"
+#include "cli/command_line.h"
+
+namespace {
+
+using namespace triad;
+
+constexpr int internal_error = 70;  // EX_SOFTWARE: a defect of Triad
+
+int complain(int exit, const std::string& sentence) {
+    std::fprintf(stderr, "triad: %s\n", sentence.c_str());
+    return exit;
+}
+
+/// "Did you mean ...?", or where help is.
+std::string hint(const CLI::App& app) {
+    const auto chosen = app.get_subcommands();
+    const CLI::App& command = chosen.empty() ? app : *chosen.front();
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const CLI::App* sub : command.get_subcommands(nullptr)) names.push_back(sub->get_name());
+    for (const std::string& word : command.remaining()) {
+        const std::string name = nearest_name(word.substr(0, word.find('=')), names);
+        if (!name.empty()) return "Did you mean " + name + "?";
+    }
+    return "See triad" + (chosen.empty() ? "" : " " + command.get_name()) + " --help.";
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Triad path-traces glTF scenes on any OpenCL device.", "triad");
+    Exit exit = Exit::done;
+    app.set_version_flag("--version", "triad " TRIAD_VERSION);
+    app.set_help_flag("-h,--help", "Show this help, or that of a command");
+    app.get_formatter()->column_width(34);
+    app.footer(
+        "Exit codes: 0 done, 1 usage, 2 scene or file, 3 unsupported, 4 memory, 5 device, 6 incomplete, 7 "
+        "comparison failed,\n"
+        "75 interrupted and saved. A first picture: triad render; your own: triad render SCENE.glb -o "
+        "OUT.png");
+    add_render(app, exit);
+    add_info(app, exit);
+    add_merge(app, exit);
+    add_resolve(app, exit);
+    add_compare(app, exit);
+    add_panel(app, exit);
+    add_devices(app, exit);
+    add_check(app, exit);
+    add_bench(app, exit);
+    for (CLI::App* command : app.get_subcommands(nullptr)) {
+        add_common(*command);
+        command->set_help_flag("-h,--help", "Show this help");
+    }
+    app.require_subcommand(0, 1);
+    try {
+        app.parse(argc, argv);
+        if (app.get_subcommands().empty()) std::cout << app.help();
+        return static_cast<int>(exit);
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success);
+    } catch (const CLI::ParseError& error) {
+        return complain(static_cast<int>(Exit::usage), std::string(error.what()) + "\n" + hint(app));
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
+    std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
+    try {
+        return run(argc, argv);
+    } catch (const Error& error) {
+        return complain(static_cast<int>(error.exit()), error.what());
+    } catch (const std::bad_alloc&) {
+        return complain(static_cast<int>(Exit::memory),
+                        "There is not enough memory for this scene or picture.");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return complain(static_cast<int>(Exit::scene), error.what());
+    } catch (const std::exception& error) {
+        return complain(internal_error, std::string("internal error: ") + error.what());
+    }
+}

@@ -1,0 +1,86 @@
+// triad merge: joins partial renders. Films are sums of integers, so that the order of the parts does not
+// matter.
+#include <memory>
+
+#include "base/log.h"
+#include "base/progress.h"
+#include "cli/command_line.h"
+#include "report/report.h"
+#include "session/metadata.h"
+#include "session/output.h"
+
+namespace triad {
+namespace {
+
+struct MergeOptions {
+    std::vector<std::string> parts;
+    std::string output, json;
+    std::uint64_t expected_spp = 0;
+};
+
+/// Pictures are no films; one that was made for a panel is refused for that.
+Film load_part(const std::string& path) {
+    try {
+        return load_film(path);
+    } catch (const Error&) {
+        if (is_picture(path)) refuse_for_panel(path, read_picture(path).metadata, "merge");
+        throw;
+    }
+}
+
+Exit run(const MergeOptions& o) {
+    check_writable(o.output);
+    // One part at a time: two films are in memory, however many parts there are.
+    Film whole = load_part(o.parts.front());
+    for (std::size_t i = 1; i < o.parts.size(); ++i) {
+        try {
+            const Film pair[] = {std::move(whole), load_part(o.parts[i])};
+            whole = merge(pair);
+        } catch (const Error& error) {
+            throw Error(error.exit(), o.parts[i] + ": " + error.what());
+        }
+    }
+    save_film(o.output, whole);
+    const std::uint64_t end = o.expected_spp ? o.expected_spp : whole.ranges.back().end;
+    const std::vector<SampleRange> missing = holes(whole, end);
+    inform(o.output + ": " + spp_text(whole.sample_numbers().mean) + " samples per pixel from " +
+           std::to_string(o.parts.size()) + " films");
+    if (!o.json.empty()) {
+        Json gaps = Json::array();
+        for (const SampleRange& hole : missing) gaps.push_back({hole.begin, hole.end});
+        write_report(o.json, "merge", nullptr,
+                     {{{"film", o.output},
+                       {"parts", o.parts.size()},
+                       {"spp", spp_json(whole.sample_numbers())},
+                       {"relmse", estimated_relmse(whole)},
+                       {"holes", gaps}}});
+    }
+    if (missing.empty()) return Exit::done;
+    std::string sentence =
+        o.output + " was written but is incomplete; render these samples and merge them in:";
+    for (const SampleRange& hole : missing)
+        sentence += " --samples " + std::to_string(hole.begin) + ":" + std::to_string(hole.end);
+    throw Error(Exit::incomplete, sentence);
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<MergeOptions>();
+    CLI::App* command =
+        app.add_subcommand("merge", "Join films of ranges of samples (render --film --samples) into one");
+    command->add_option("PART", o->parts, "Film files, in any order")->required()->type_name("");
+    command->add_option("-o,--output", o->output, "The joined film")
+        ->required()
+        ->allow_extra_args(false)
+        ->type_name("FILM");
+    command
+        ->add_option("--expect-spp", o->expected_spp,
+                     "Exit 6 and name the holes unless samples 0 to N are all there")
+        ->check(CLI::PositiveNumber)
+        ->type_name("N");
+    command->add_option("--json", o->json, "Write what was merged as JSON")->type_name("FILE");
+    command->callback([o, &exit] { exit = run(*o); });
+}
+
+}  // namespace triad

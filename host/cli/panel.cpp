@@ -1,0 +1,151 @@
+// triad panel: displays, their taps, and what they look like through a magnifier.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "base/files.h"
+#include "cli/command_line.h"
+#include "cli/compare_perceived.h"
+#include "panel/design.h"
+#include "panel/panel_json.h"
+#include "report/error_pictures.h"
+#include "report/panel_report.h"
+#include "session/output.h"
+#include "session/panel_file.h"
+
+namespace triad {
+namespace {
+
+constexpr double usual_ppd = 45;
+constexpr std::size_t most_samples = std::size_t(1) << 28;  // of a drawing
+
+struct PanelOptions {
+    std::string panel, bins = "3x3", filter = "triad", output, picture, crop, file, json;
+    std::optional<double> ppd;
+    bool taps = false;
+    unsigned zoom = 48;
+};
+
+TapTable taps_of(const PanelOptions& o, const Panel& panel, double ppd) {
+    const uvec2 bins = parse_size("--bins", o.bins);
+    if (o.filter == "displaced") {
+        check_design(ppd, bins.x, bins.y);
+        return displaced_box_taps(panel, bins.x, bins.y);
+    }
+    if (o.filter == "platt") return platt_taps(panel, ppd, true);
+    return kept_taps(panel, ppd,
+                     {.bins_x = bins.x,
+                      .bins_y = bins.y,
+                      .cross_colour = o.filter == "cross-colour",
+                      .separable = o.filter == "separable"});
+}
+
+/// The picture, or the part of it that --crop names.
+RgbImage drives_of(const PanelOptions& o) {
+    RgbImage whole = display_of(o.picture, read_picture(o.picture));
+    if (whole.rgb.empty()) throw Error(Exit::scene, o.picture + " lacks R, G or B.");
+    if (o.crop.empty()) return whole;
+    const std::vector<double> c = parse_numbers("--crop", o.crop, 4);
+    for (const double v : c)
+        if (v < 0 || v != std::floor(v))
+            throw Error(Exit::usage, "--crop " + o.crop + ": whole numbers from 0 on are expected.");
+    if (c[0] + c[2] > whole.width || c[1] + c[3] > whole.height || c[2] < 1 || c[3] < 1)
+        throw Error(Exit::usage, "--crop " + o.crop + ": the picture has " + std::to_string(whole.width) +
+                                     "x" + std::to_string(whole.height) + " pixels.");
+    RgbImage part{unsigned(c[2]), unsigned(c[3]), {}};
+    for (unsigned y = 0; y < part.height; ++y) {
+        const float* row = whole.rgb.data() + (std::size_t(c[1] + y) * whole.width + std::size_t(c[0])) * 3;
+        part.rgb.insert(part.rgb.end(), row, row + part.width * 3);
+    }
+    return part;
+}
+
+RgbImage drawing(const PanelOptions& o, const Panel& panel) {
+    if (o.picture.empty()) return magnified(panel, o.zoom);
+    const RgbImage drives = drives_of(o);
+    if (std::size_t(drives.width) * drives.height * o.zoom * o.zoom > most_samples)
+        throw Error(Exit::usage,
+                    "--zoom " + std::to_string(o.zoom) +
+                        ": the drawing would have more than 2^28 samples; take a part with --crop, or a "
+                        "smaller zoom.");
+    return magnified(panel, drives, o.zoom);
+}
+
+void draw(const PanelOptions& o, const Panel& panel) {
+    const std::vector<std::uint8_t> png = png_of(drawing(o, panel));
+    write_file(o.output, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+Exit run(const PanelOptions& o) {
+    if (!o.output.empty()) {
+        if (!o.output.ends_with(".png"))
+            throw Error(Exit::usage, "-o " + o.output + ": the extension must be .png.");
+        check_writable(o.output);
+    }
+    const bool print = o.json != "-";
+    Json rows = Json::array();
+    if (o.panel.empty()) {
+        if (o.taps || !o.output.empty() || !o.file.empty() || !o.picture.empty())
+            throw Error(Exit::usage, "Name the panel: triad panel NAME ...; triad panel alone lists them.");
+        for (const Panel& panel : builtin_panels()) {
+            if (print) std::puts(panel_line(panel).c_str());
+            rows.push_back(panel_row(panel));
+        }
+        if (print)
+            std::puts("Each also turned or mirrored, as in qd-oled@180 and rgb@flip; others as panel.json.");
+    } else {
+        const Panel panel = panel_named(o.panel);
+        if (print) std::fputs(panel_text(panel).c_str(), stdout);
+        Json row = panel_row(panel);
+        if (o.taps) {
+            const double ppd = o.ppd.value_or(panel.ppd.value_or(usual_ppd));
+            const TapTable table = taps_of(o, panel, ppd);
+            if (print)
+                std::printf("%s taps for %g pixels per degree, %s", o.filter.c_str(), ppd,
+                            taps_text(table).c_str());
+            row["design_ppd"] = ppd;
+            row["taps"] = taps_json(table);
+        }
+        rows.push_back(std::move(row));
+        if (!o.output.empty()) draw(o, panel);
+        if (!o.file.empty()) write_file(o.file, json_of_panel(panel));
+    }
+    if (!o.json.empty()) write_report(o.json, "panel", nullptr, std::move(rows));
+    return Exit::done;
+}
+
+}  // namespace
+
+void add_panel(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<PanelOptions>();
+    CLI::App* command =
+        app.add_subcommand("panel", "Displays: their emitters, their taps, and how they look magnified");
+    command->add_option("PANEL", o->panel, "A name, or a panel.json; without it the built-in ones are listed")
+        ->type_name("");
+    command->add_flag("--taps", o->taps, "Print the designed taps");
+    command
+        ->add_option("--ppd", o->ppd,
+                     "Pixels per degree that they are designed for (default: the panel's, else 45)")
+        ->check(CLI::Range(5.0, 1000.0))
+        ->type_name("X");
+    command->add_option("--bins", o->bins, "Bins per pixel of the film (default 3x3)")->type_name("BXxBY");
+    command
+        ->add_option("--filter", o->filter,
+                     "triad, separable, cross-colour, displaced or platt (default triad)")
+        ->check(CLI::IsMember({"triad", "separable", "cross-colour", "displaced", "platt"}))
+        ->type_name("NAME");
+    command
+        ->add_option("-o,--output", o->output, "Draw the emitters, magnified: white, or the picture's drives")
+        ->type_name("FILE.png");
+    command->add_option("--picture", o->picture, "What the drawing's display shows")->type_name("FILE");
+    command->add_option("--crop", o->crop, "The part of the picture")->type_name("X,Y,W,H");
+    command->add_option("--zoom", o->zoom, "Of the drawing (default 48)")
+        ->check(CLI::Range(1, 256))
+        ->type_name("N");
+    command->add_option("--write", o->file, "Write the panel as panel.json, to be changed")
+        ->type_name("FILE");
+    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)")->type_name("FILE");
+    command->callback([o, &exit] { exit = run(*o); });
+}
+
+}  // namespace triad

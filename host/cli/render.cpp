@@ -1,0 +1,119 @@
+// triad render: from a scene to pictures.
+#include <cstdio>
+#include <memory>
+
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "base/text.h"
+#include "cli/command_line.h"
+#include "cli/render_options.h"
+#include "kernels/types.h"
+#include "report/pixel_table.h"
+#include "report/render_report.h"
+#include "session/render_session.h"
+
+namespace triad {
+namespace {
+
+/// --pixel: the table on standard output, or where --json says.
+void tell_pixel(RenderSession& session) {
+    constexpr std::size_t largest = 5;
+    const auto [x, y] = *session.request().pixel;
+    const std::string& path = session.request().json_path;
+    const PixelReport report = report_pixel(session.renderer(), 0, 0, session.goal().samples, largest);
+    const std::vector<std::string>& sources = session.renderer().packed().light_sources;
+    if (path != "-") std::fputs(table_text(report, session.scene(), sources, x, y).c_str(), stdout);
+    if (!path.empty())
+        write_report(path, "render", &session.device().info(),
+                     Json::array({to_json(report, session.scene(), sources, x, y)}));
+}
+
+/// What went wrong with samples is said, not hidden.
+void report_counters(const Film& film, unsigned max_depth) {
+    const auto& n = film.counters;
+    if (n[COUNTER_NOT_FINITE])
+        warn(std::to_string(n[COUNTER_NOT_FINITE]) + " samples were not finite and count as black.");
+    if (n[COUNTER_SATURATED])
+        warn(std::to_string(n[COUNTER_SATURATED]) + " samples were too bright for the film and were cut.");
+    if (n[COUNTER_TRUNCATED])
+        detail(format("%llu paths were cut at depth %u",
+                      static_cast<unsigned long long>(n[COUNTER_TRUNCATED]), max_depth));
+}
+
+/// What was made ready, and how.
+void describe(RenderSession& session) {
+    const Renderer& renderer = session.renderer();
+    std::string left_out_text;
+    for (const std::string& name : left_out(renderer.features()))
+        left_out_text += (left_out_text.empty() ? "" : ", ") + name;
+    detail(format("Loaded in %.2f s, trees and packing %.2f s, kernels %.2f s, %s on the device",
+                  session.load_seconds(), renderer.build_seconds(), renderer.compile_seconds(),
+                  bytes_text(renderer.device_bytes()).c_str()));
+    const bool told = session.request().integrator == Integrator::automatic && renderer.photons() > 0;
+    (told ? inform : detail)("Integrator: " + renderer.packed().integrator);
+    detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
+}
+
+ProgressState shown(const Progress& p, const RenderGoal& goal) {
+    return {.done = p.done,
+            .seconds = p.seconds,
+            .seconds_left = p.seconds_left,
+            .spp = p.samples,
+            .relmse = p.relmse,
+            .trend = p.trend,
+            .wanted_relmse = goal.error,
+            .seconds_to_error = p.seconds_to_error,
+            .perceived_noise = p.perceived_noise};
+}
+
+Exit run(const RenderRequest& request) {
+    RenderSession session(request);
+    describe(session);
+    if (session.request().pixel) {
+        tell_pixel(session);
+        return Exit::done;
+    }
+    const InterruptGuard guard;
+    const RenderGoal& goal = session.goal();
+    RenderOutcome outcome;
+    Progress progress;
+    {
+        ProgressDisplay display(progress_style(request.progress));
+        outcome = session.render([&](const Progress& p) {
+            progress = p;
+            display.update(shown(p, goal));
+            return !guard.interrupted();
+        });
+    }
+    const Film& film = outcome.film;
+    detail("The film has " + bytes_text(film_bytes(film)) + ", " + std::to_string(film.bins()) +
+           (film.bins() == 1 ? " bin per pixel" : " bins per pixel"));
+    session.write(outcome);
+    report_counters(film, request.max_depth);
+    if (!request.json_path.empty())
+        write_report(request.json_path, "render", &session.device().info(),
+                     Json::array({render_row(session, outcome)}));
+    inform(render_sentence(session, outcome));
+    if (goal.error > 0 && outcome.result.stop != Stop::error)
+        inform(format("The relMSE of %.2g that was asked for is not reached", goal.error) +
+               (progress.seconds_to_error > 0
+                    ? " and would take about " + clock_time(progress.seconds_to_error) + " more."
+                    : "."));
+    if (outcome.complete()) return Exit::done;
+    inform(format("Stopped early: every pixel has samples %llu to %llu.",
+                  static_cast<unsigned long long>(outcome.result.range.begin),
+                  static_cast<unsigned long long>(outcome.result.range.end)));
+    return Exit::interrupted;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<RenderRequest>();
+    CLI::App* command = app.add_subcommand("render", "Render a scene; without one the built-in scene");
+    declare(*command, *o);
+    command->callback([o, &exit] { exit = run(*o); });
+}
+
+}  // namespace triad

@@ -1,0 +1,257 @@
+#include "cli/render_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "cli/command_line.h"
+#include "cli/output_options.h"
+#include "cli/reconstruct_options.h"
+
+namespace triad {
+namespace {
+
+const char* const view_group = "View";
+const char* const light_group = "Light and background";
+const char* const output_group = "Output";
+const char* const machine_group = "Machine";
+
+/// An option whose text `assign` parses; a bad text is an Error(usage) that names the option.
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& form,
+                        const std::string& help, std::function<void(const std::string&)> assign) {
+    return command.add_option_function<std::string>(name, std::move(assign), help)->type_name(form);
+}
+
+Spectral parse_spectral(const std::string& text) {
+    if (text == "auto") return Spectral::automatic;
+    if (text == "off") return Spectral::off;
+    if (text == "full") return Spectral::full;
+    if (text == "classic") return Spectral::classic;
+    throw Error(Exit::usage, "--spectral " + text + ": auto, off, full or classic.");
+}
+
+}  // namespace
+
+void declare(CLI::App& command, RenderRequest& o) {
+    command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
+        ->type_name("");
+    command
+        .add_option("--spp", o.spp,
+                    "Samples per pixel (default 64; with --error or --time no limit). Of --spp, --error and "
+                    "--time, what is reached first ends the render")
+        ->check(CLI::Range(std::uint64_t(1), most_samples))
+        ->type_name("N");
+    command.add_option("--error", o.error, "Stop when the estimated relMSE of the picture is this low")
+        ->check(CLI::PositiveNumber)
+        ->type_name("E");
+    command
+        .add_option("--time", o.time,
+                    "Stop after so many seconds of rendering (loading and compiling not counted)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    add_parsed(command, "--adaptive", "on|off",
+               "Send samples where they lower the error most (default on with --error or --time)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off") throw Error(Exit::usage, "--adaptive " + v + ": on or off.");
+                   o.adaptive = v == "on";
+               });
+    command.add_option("--seed", o.seed, "Of the random numbers (default 0)")->type_name("N");
+    command
+        .add_option("--max-depth", o.max_depth,
+                    "Longest path in edges: 1 emitters only, 2 direct light (default 0: no limit)")
+        ->type_name("N");
+    command
+        .add_option(
+            "--roulette", o.roulette,
+            "Paths that carry less than this are ended in proportion (default 0.8; 0.5: least error for its "
+            "time; 1: most samples)")
+        ->check(CLI::Range(0.01, 10.0))
+        ->type_name("T");
+    add_parsed(
+        command, "--integrator", "NAME",
+        "auto (the default: photons where something casts the light of a small source onto other "
+        "surfaces), path (paths alone), photons (from every light), light (photons that the camera sees "
+        "directly, paths for all else) or photon-map (the classic method)",
+        [&o](const std::string& v) {
+            static const std::map<std::string, Integrator> integrators = {
+                {"auto", Integrator::automatic},
+                {"path", Integrator::path},
+                {"photons", Integrator::photons},
+                {"light", Integrator::light},
+                {"photon-map", Integrator::photon_map}};
+            const auto found = integrators.find(v);
+            if (found == integrators.end())
+                throw Error(Exit::usage, "--integrator " + v + ": auto, path, photons, light or photon-map.");
+            o.integrator = found->second;
+        });
+    command
+        .add_option(
+            "--photons", o.photons,
+            "Photons with every sample of the picture (default: one for each pixel); of photon-map: in "
+            "all (default: a million)")
+        ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
+        ->type_name("N");
+    command
+        .add_option(
+            "--photon-radius", o.photon_radius,
+            "In which photons are gathered, in scene units: of the first sample, after which it shrinks, "
+            "or of photon-map (default: chosen by the scene)")
+        ->check(CLI::Range(1e-12, 1e12))
+        ->type_name("R");
+    add_parsed(command, "--photon-aim", "on|off",
+               "Aim photons at what mirrors and refracts (default on; off: to compare)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off")
+                       throw Error(Exit::usage, "--photon-aim " + v + ": on or off.");
+                   o.aim_photons = v == "on";
+               });
+    add_parsed(command, "--final-gather", "on|off",
+               "With photon-map: bounce once before the map is looked up (default on)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off")
+                       throw Error(Exit::usage, "--final-gather " + v + ": on or off.");
+                   o.final_gather = v == "on";
+               });
+    add_parsed(command, "--sampler", "NAME",
+               "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
+               [&o](const std::string& v) {
+                   if (v != "sobol" && v != "independent")
+                       throw Error(Exit::usage, "--sampler " + v + ": sobol or independent.");
+                   o.independent = v == "independent";
+               });
+    add_parsed(command, "--samples", "A:B", "Only this half-open range of sample indices, for triad merge",
+               [&o](const std::string& v) { o.samples = parse_range("--samples", v); });
+
+    add_parsed(command, "--size", "WxH", "Of the picture (default 1280x720, or the aspect of the camera)",
+               [&o](const std::string& v) { o.size = parse_size("--size", v); })
+        ->group(view_group);
+    add_parsed(command, "--crop", "X,Y,W,H", "Render this part of the picture only",
+               [&o](const std::string& v) {
+                   const auto n = parse_numbers("--crop", v, 4);
+                   for (double x : n)
+                       if (x < 0 || x > 65536 || x != std::floor(x))
+                           throw Error(Exit::usage, "--crop " + v + ": expected whole pixels.");
+                   o.crop = {unsigned(n[0]), unsigned(n[1]), unsigned(n[2]), unsigned(n[3])};
+               })
+        ->group(view_group);
+    add_parsed(
+        command, "--pixel", "X,Y",
+        "Print everything about one pixel instead of making a picture: its samples, paths, lights, errors",
+        [&o](const std::string& v) {
+            const auto n = parse_numbers("--pixel", v, 2);
+            for (double x : n)
+                if (x < 0 || x > 1e9 || x != std::floor(x))
+                    throw Error(Exit::usage, "--pixel " + v + ": expected two whole numbers.");
+            o.pixel = {unsigned(n[0]), unsigned(n[1])};
+        })
+        ->group(view_group);
+    command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("N")
+        ->group(view_group);
+    CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
+                              ->type_name("NAME|INDEX")
+                              ->group(view_group);
+    add_parsed(command, "--look-at", "EX,EY,EZ,TX,TY,TZ", "From this eye point to this target",
+               [&o](const std::string& v) {
+                   const auto n = parse_numbers("--look-at", v, 6);
+                   o.look_at.emplace();
+                   std::copy(n.begin(), n.end(), o.look_at->begin());
+               })
+        ->excludes(camera)
+        ->group(view_group);
+    command.add_option("--fov", o.fov, "Vertical angle of view in degrees")
+        ->check(CLI::Range(0.001, 179.0))
+        ->type_name("DEG")
+        ->group(view_group);
+    command.add_option("--aperture", o.aperture, "Lens radius in scene units (default 0: all sharp)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("R")
+        ->group(view_group);
+    command
+        .add_option(
+            "--focus", o.focus,
+            "Distance that is sharp, along the view (default: the target, or the middle of the scene)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("D")
+        ->group(view_group);
+
+    add_parsed(
+        command, "--spectral", "auto|off|full|classic",
+        "auto (the default): a path has three wavelengths from the first body on that disperses; off: RGB; "
+        "full: four wavelengths per path; "
+        "classic: one wavelength from the camera on",
+        [&o](const std::string& v) { o.spectral = parse_spectral(v); })
+        ->group(light_group);
+    command
+        .add_option("--glass", o.glass,
+                    "Make this material of the file that glass of the catalogue (docs/spectral.md); several "
+                    "allowed")
+        ->type_name("MATERIAL=NAME")
+        ->allow_extra_args(false)
+        ->group(light_group);
+    CLI::Option* env = command.add_option("--env", o.env_path, "Lat-long environment, .hdr or .exr")
+                           ->type_name("FILE")
+                           ->group(light_group);
+    command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis, from +x towards +z")
+        ->type_name("DEG")
+        ->needs(env)
+        ->group(light_group);
+    command.add_option("--env-strength", o.env_strength, "Brightness of environment or sky (default 1)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("X")
+        ->group(light_group);
+    add_parsed(command, "--background", "env|transparent|#RRGGBB",
+               "What is seen behind everything (default env)",
+               [&o](const std::string& v) {
+                   o.transparent = v != "env";
+                   if (v != "env" && v != "transparent") o.style.background = parse_colour("--background", v);
+               })
+        ->group(light_group);
+
+    command
+        .add_option("-o,--output", o.outputs,
+                    "Picture: .exr, .hdr (linear), .png, .jpg (tone-mapped), - (PNG on standard output); "
+                    "several allowed")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->group(output_group);
+    declare_style(command, o.style);
+    declare(command, o.reconstruct);
+    command
+        .add_option("--aov", o.aovs,
+                    "Layers for EXR files: albedo, normal, position, depth, samples, variance, error, or all")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(
+            CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}))
+        ->type_name("LIST")
+        ->group(output_group);
+    command.add_option("--film", o.film_path, "Also write the film, for triad merge and triad resolve")
+        ->type_name("FILE")
+        ->group(output_group);
+    command.add_option("--json", o.json_path, "Write times, rays and errors as JSON")
+        ->type_name("FILE")
+        ->group(output_group);
+    command.add_option("--progress", o.progress, "On standard error: auto, bar, lines, json or none")
+        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
+        ->type_name("STYLE")
+        ->group(output_group);
+
+    command.add_option("--device", o.device, "Number, cpu, gpu, or part of a name (see triad devices)")
+        ->type_name("SEL")
+        ->group(machine_group);
+    command.add_option("--threads", o.threads, "Cores to use, here and on CPU devices (default 0: all)")
+        ->type_name("N")
+        ->group(machine_group);
+    command.add_flag("--force", o.force, "Render even on a device that triad check found wrong")
+        ->group(machine_group);
+    command
+        .add_option("--kernels", o.kernels_path, "Read kernel source from here instead of the copy inside")
+        ->check(CLI::ExistingDirectory)
+        ->type_name("DIR")
+        ->group(machine_group);
+}
+
+}  // namespace triad

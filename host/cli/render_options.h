@@ -1,0 +1,12 @@
+#pragma once
+/// The options of `triad render` on the command line.
+#include <CLI/CLI.hpp>
+
+#include "session/render_request.h"
+
+namespace triad {
+
+/// Declares the options on a subcommand. `request` must outlive the parsing; complete() it afterwards.
+void declare(CLI::App& command, RenderRequest& request);
+
+}  // namespace triad

@@ -1,0 +1,134 @@
+// triad resolve: pictures from a film or from any renderer's larger picture, without rendering.
+#include <fstream>
+#include <memory>
+
+#include "cli/command_line.h"
+#include "cli/output_options.h"
+#include "cli/reconstruct_options.h"
+#include "session/metadata.h"
+#include "session/output.h"
+
+namespace triad {
+namespace {
+
+struct ResolveOptions {
+    std::string source, background, device;
+    std::vector<std::string> outputs;
+    OutputStyle style;
+    ReconstructRequest reconstruct;
+    bool toned = false;  ///< --exposure or --tonemap was given
+};
+
+bool is_film(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    char magic[9] = {};
+    file.read(magic, sizeof magic);
+    return std::string(magic, sizeof magic) == "TRIADFILM";
+}
+
+void resolve_film(ResolveOptions& o) {
+    const Film film = load_film(o.source);
+    o.style.reconstruction = o.reconstruct.make(uvec2(film.bins_x, film.bins_y));
+    check_format_for(o.style.reconstruction, o.outputs);
+    const Reconstruction& method = o.style.reconstruction;
+    if (has_filtered_rays(film) != (method.ray_start == RayStart::filter))
+        throw Error(Exit::usage,
+                    has_filtered_rays(film)
+                        ? "The rays of " + o.source +
+                              " started by a panel's filter: name that panel and the method that rendered it "
+                              "(--reconstruct random3 or random3:shared)."
+                        : "--reconstruct " + method.method +
+                              " needs rays that start by its filter; the film " + o.source +
+                              " has others. Render it with that method.");
+    if (film.bins_x != method.bins_x || film.bins_y != method.bins_y)
+        throw Error(Exit::usage, "--bins: the film " + o.source + " has " + std::to_string(film.bins_x) +
+                                     "x" + std::to_string(film.bins_y) + " bins per pixel.");
+    Device device = Device::open({.selector = o.device});
+    Metadata metadata = metadata_of(film);
+    describe(method, metadata);
+    write_outputs(o.outputs, device, film, o.style, {}, metadata);
+}
+
+/// RGBA with associated colours, sRGB-encoded where the file holds integers.
+BinImage image_of(const Picture& picture, const std::string& path) {
+    const Channel* channels[] = {picture.find("R"), picture.find("G"), picture.find("B"), picture.find("A")};
+    if (std::count(channels, channels + 3, nullptr) > 0)
+        throw Error(Exit::scene, path + " has no channels R, G and B.");
+    BinImage image;
+    image.columns = picture.width, image.rows = picture.height;
+    image.encoded = picture.encoded;
+    image.rgba.resize(std::size_t(picture.width) * picture.height * 4, 1.0f);
+    for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t i = 0; channels[c] && i < image.rgba.size() / 4; ++i)
+            image.rgba[4 * i + c] = channels[c]->values[i];
+    return image;
+}
+
+void resolve_image(ResolveOptions& o) {
+    const Picture picture = read_picture(o.source);
+    refuse_for_panel(o.source, picture.metadata, "filter");
+    if (picture.encoded && o.toned)
+        throw Error(Exit::usage,
+                    o.source +
+                        " holds sRGB values that are tone-mapped already: --exposure and --tonemap "
+                        "are for films and for EXR and HDR pictures.");
+    o.style.reconstruction = o.reconstruct.make();
+    check_format_for(o.style.reconstruction, o.outputs);
+    const Reconstruction& method = o.style.reconstruction;
+    if (method.ray_start == RayStart::filter)
+        throw Error(Exit::usage,
+                    "--reconstruct " + method.method + " is a way to render, not to filter a picture.");
+    BinImage image = image_of(picture, o.source);
+    image.bins_x = method.bins_x, image.bins_y = method.bins_y;
+    Device device = Device::open({.selector = o.device});
+    Metadata metadata = {{"triad:version", TRIAD_VERSION}, {"Software", "triad " TRIAD_VERSION}};
+    describe(method, metadata);
+    write_outputs(o.outputs, device, image, picture.find("A") != nullptr, o.style, metadata);
+}
+
+Exit run(ResolveOptions o) {
+    for (const std::string& path : o.outputs) {
+        check_format(path);
+        check_writable(path);
+    }
+    if (!o.background.empty()) o.style.background = parse_colour("--background", o.background);
+    if (is_film(o.source))
+        resolve_film(o);
+    else
+        resolve_image(o);
+    return Exit::done;
+}
+
+}  // namespace
+
+void add_resolve(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<ResolveOptions>();
+    CLI::App* command = app.add_subcommand(
+        "resolve",
+        "Make pictures of a film again, or of any larger picture: for a panel, by a filter, other tones");
+    command
+        ->add_option(
+            "FILM|IMAGE", o->source,
+            "Film of triad render --film or triad merge; or a picture of any renderer (EXR, HDR, PNG, "
+            "JPEG), whose pixels are the bins")
+        ->required()
+        ->type_name("");
+    command->add_option("-o,--output", o->outputs, "Picture, as in triad render; several allowed")
+        ->required()
+        ->allow_extra_args(false)
+        ->type_name("FILE")
+        ->group("Output");
+    declare_style(*command, o->style);
+    declare(*command, o->reconstruct);
+    command->add_option("--background", o->background, "Put this colour behind what is transparent")
+        ->type_name("#RRGGBB")
+        ->group("Output");
+    command->add_option("--device", o->device, "Number, cpu, gpu, or part of a name (see triad devices)")
+        ->type_name("SEL");
+    command->callback([o, command, &exit] {
+        o->toned = command->count("--exposure") + command->count("--tonemap") > 0;
+        exit = run(*o);
+    });
+}
+
+}  // namespace triad

@@ -1,0 +1,90 @@
+/// What a packing promises to the eye, and for which other eyes that holds.
+#include <algorithm>
+#include <cmath>
+
+#include "pack/pack.h"
+#include "pack/refine.h"
+
+namespace triad {
+namespace {
+
+/// Coordinates of a triangle are at most so many times its distance from the eye that a scene is packed for:
+/// its own edges are (pack/refine.h), and the render origin lies at that eye.
+constexpr double most_coordinate = longest_edge_per_distance + 1;
+
+bool packs_alike(const RenderSettings& a, const RenderSettings& b) {
+    return a.spectral == b.spectral && a.integrator == b.integrator && a.aim_photons == b.aim_photons &&
+           (a.ray_start == RayStart::filter) == (b.ray_start == RayStart::filter) &&
+           a.environment_rotation == b.environment_rotation &&
+           a.environment_strength == b.environment_strength && a.flatten_below == b.flatten_below;
+}
+
+bool same_place(const View& a, const View& b) {
+    return a.eye == b.eye && a.orthographic == b.orthographic && lens_reach(a) <= lens_reach(b);
+}
+
+/// The squared distance of a point from the box around three corners.
+double distance2(const dvec3& p, const dvec3 corners[3]) {
+    const dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2])),
+                high = glm::max(corners[0], glm::max(corners[1], corners[2]));
+    const dvec3 off = p - glm::clamp(p, low, high);
+    return glm::dot(off, off);
+}
+
+/// What is flattened is exact enough for an eye at `eye` (rebased).
+bool is_exact(const PackedScene& packed, const dvec3& eye) {
+    const dvec3 most = glm::max(glm::abs(packed.bounds.lo), glm::abs(packed.bounds.hi));
+    const Cutter cutter(eye, std::max({most.x, most.y, most.z}));
+    for (std::size_t i = packed.first_placed_block; i < packed.bvh.blocks.size(); ++i) {
+        const dev::TriangleBlock& block = packed.bvh.blocks[i];
+        for (int lane = 0; lane < 4; ++lane) {
+            dvec3 corner[3];
+            double coordinate = 0;
+            for (int c = 0; c < 3; ++c)
+                for (int axis = 0; axis < 3; ++axis) {
+                    corner[c][axis] = block.vertex[c * 3 + axis][lane];
+                    coordinate = std::max(coordinate, std::abs(corner[c][axis]));
+                }
+            if (coordinate * coordinate > most_coordinate * most_coordinate * distance2(eye, corner) ||
+                cutter.cuts_any(corner[0], corner[1], corner[2]))
+                return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+bool holds_for(const PackedScene& packed, const RenderSettings& settings) {
+    if (!packs_alike(packed.settings, settings)) return false;
+    const View& view = settings.view;
+    if (same_place(view, packed.settings.view)) return true;
+    const dvec3 eye = view.eye - packed.origin;
+    const double around = lens_reach(view);
+    const Bounds& reach = packed.reach;
+    const dvec3 low = eye - around, high = eye + around;
+    if (glm::any(glm::lessThan(low, reach.lo)) || glm::any(glm::greaterThan(high, reach.hi))) return false;
+    return view.orthographic || is_exact(packed, eye);
+}
+
+std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSettings& settings,
+                                            std::shared_ptr<const PackedScene> before) {
+    if (before && holds_for(*before, settings)) return before;
+    const bool share = before && packs_alike(before->settings, settings);
+    auto packed = std::make_shared<PackedScene>(
+        pack(scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}));
+    if (share) packed->packings = before->packings + 1;
+    return packed;
+}
+
+std::string text_of(const RenderSettings& settings, const PackedScene& packed) {
+    const std::string text = text_of(settings);
+    const dvec3& eye = packed.settings.view.eye;
+    if (eye == settings.view.eye && packed.settings.view.orthographic == settings.view.orthographic)
+        return text;
+    char place[128];
+    std::snprintf(place, sizeof place, ", \"packed_for_eye\": [%.17g, %.17g, %.17g]}", eye.x, eye.y, eye.z);
+    return text.substr(0, text.size() - 1) + place;
+}
+
+}  // namespace triad

@@ -1,0 +1,108 @@
+#include "pack/pack.h"
+
+#include <array>
+#include <cmath>
+
+#include "pack/ray_filter.h"
+
+namespace triad {
+namespace {
+
+void copy(float out[3], const dvec3& v) {
+    for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
+std::shared_ptr<const PackedSurfaces> pack_surfaces(const Scene& scene, const RenderSettings& settings) {
+    auto surfaces = std::make_shared<PackedSurfaces>();
+    pack_materials(scene, *surfaces);
+    pack_spectrum(scene, settings, *surfaces);
+    pack_environment(scene, settings, *surfaces);
+    return surfaces;
+}
+
+/// After pack_lights().
+void name_light_sources(const Scene& scene, PackedScene& packed) {
+    std::vector<std::string>& names = packed.light_sources;
+    const auto add = [&](const char* kind, const auto& things) {
+        for (std::size_t i = 0; i < things.size(); ++i)
+            names.push_back(std::string(kind) + " " +
+                            (things[i].name.empty() ? std::to_string(i) : '"' + things[i].name + '"'));
+    };
+    add("material", scene.materials);
+    auto punctual = static_cast<std::uint32_t>(names.size());
+    add("light", scene.lights);
+    const auto sky = static_cast<std::uint32_t>(names.size());
+    names.push_back("environment");
+    for (const dev::Light& l : packed.lights)
+        packed.source_of_light.push_back(
+            l.type == LIGHT_TRIANGLE      ? packed.geometries[packed.triangles[l.primitive].geometry].material
+            : l.type == LIGHT_ENVIRONMENT ? sky
+                                          : punctual++);
+}
+
+}  // namespace
+
+void set_surfaces(PackedScene& packed, std::shared_ptr<const PackedSurfaces> surfaces) {
+    packed.surfaces = std::move(surfaces);
+    packed.environment = packed.surfaces->environment;
+    packed.spectrum = packed.surfaces->spectrum;
+}
+
+PackedScene pack(const Scene& scene, const RenderSettings& settings,
+                 std::shared_ptr<const PackedSurfaces> surfaces) {
+    PackedScene packed;
+    packed.scene = hash_of(scene);
+    packed.settings = settings;
+    packed.facts = facts_of(scene);
+    pack_geometry(scene, settings, packed);
+    set_surfaces(packed, surfaces ? std::move(surfaces) : pack_surfaces(scene, settings));
+    pack_lights(scene, packed);
+    pack_wavelengths(packed);
+    pack_photons(scene, settings, packed);
+    name_light_sources(scene, packed);
+    packed.flattened = {};
+    return packed;
+}
+
+dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
+    dev::Frame frame{};
+    dev::Camera& c = frame.camera;
+    const View& view = settings.view;
+    copy(c.origin, view.eye - packed.origin);
+    copy(c.right, view.right);
+    copy(c.up, view.up);
+    copy(c.forward, view.forward);
+    c.lens_radius = static_cast<float>(view.lens_radius);
+    c.focus_distance = static_cast<float>(view.focus_distance);
+    c.projection = view.orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;
+    c.extent[0] = static_cast<float>(view.extent.x);
+    c.extent[1] = static_cast<float>(view.extent.y);
+    c.pixels[0] = static_cast<float>(settings.width);
+    c.pixels[1] = static_cast<float>(settings.height);
+    frame.environment = packed.environment;
+    const std::array<unsigned, 4> crop =
+        settings.crop[2] ? settings.crop : std::array<unsigned, 4>{0, 0, settings.width, settings.height};
+    std::copy(crop.begin(), crop.end(), frame.crop);
+    frame.bins[0] = settings.bins_x;
+    frame.bins[1] = settings.bins_y;
+    frame.seed = settings.seed;
+    frame.max_depth = settings.max_depth;
+    frame.roulette = static_cast<float>(1.0 / settings.roulette);
+    frame.transparent = settings.transparent;
+    frame.light_count = static_cast<std::uint32_t>(packed.lights.size());
+    frame.quanta = std::ldexp(1.0f, packed.quanta_log2);
+    frame.root = packed.root;
+    frame.first_block = settings.independent ? SAMPLER_SOBOL_BLOCKS : 0;
+    frame.wavelength_from_camera = settings.spectral == Spectral::classic;
+    frame.lights = packed.light_shape;
+    frame.ray_start = settings.ray_start == RayStart::centre   ? RAY_START_CENTRE
+                      : settings.ray_start == RayStart::filter ? RAY_START_FILTER
+                                                               : RAY_START_JITTER;
+    if (packed.chosen == Integrator::photons) frame.photon_map = PHOTON_MAP_PROGRESSIVE;
+    if (packed.chosen == Integrator::photon_map)
+        frame.photon_map = settings.final_gather ? PHOTON_MAP_FINAL_GATHER : PHOTON_MAP_VISUALISED;
+    if (settings.ray_start == RayStart::filter) frame.ray_filter = ray_filter_shape(settings);
+    return frame;
+}
+
+}  // namespace triad

@@ -1,0 +1,33 @@
+#pragma once
+/// The film of a picture, on the host: what it is called, and what the tracers' parts add up to.
+#include <memory>
+#include <vector>
+
+#include "pack/pack.h"
+#include "scene/film.h"
+#include "trace/tracer.h"
+
+namespace triad {
+
+using Tracers = std::vector<std::unique_ptr<Tracer>>;
+
+class FilmStore {
+  public:
+    /// An empty film of the picture: no arrays, no ranges, no devices.
+    FilmStore(const PackedScene& packed, const RenderSettings& settings);
+
+    /// The film without its arrays, unless gather() has read them.
+    const Film& film() const { return film_; }
+
+    /// Begins again: the same picture with these settings (another seed).
+    void restart(const PackedScene& packed, const RenderSettings& settings);
+    void add_device(const DeviceInfo& device);
+    void set_ranges(std::vector<SampleRange> ranges) { film_.ranges = std::move(ranges); }
+    /// Reads the parts into the arrays, which are then what all tracers have found so far.
+    const Film& gather(const Tracers& tracers);
+
+  private:
+    Film film_;
+};
+
+}  // namespace triad

@@ -1,0 +1,249 @@
+#include "report/error_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "base/child_process.h"
+#include "base/files.h"
+#include "base/text.h"
+
+namespace triad {
+namespace {
+
+/// Okabe and Ito 2008 without its yellow, the strongest first; settings also differ by dash and by marker.
+/// Over eight begin again with another dash.
+struct Pen {
+    const char *light, *dark;  // "rgb(  r, g, b)" as gnuplot writes it, and what a dark page shows instead
+    const char* colour;
+};
+constexpr Pen pens[] = {
+    {"rgb(  0, 114, 178)", "#5ab4ee", "#0072b2"}, {"rgb(213,  94,   0)", "#ff8a3c", "#d55e00"},
+    {"rgb(  0, 158, 115)", "#2fcf9f", "#009e73"}, {"rgb(204, 121, 167)", "#e39ac4", "#cc79a7"},
+    {"rgb(230, 159,   0)", "#f0b429", "#e69f00"}, {"rgb( 86, 180, 233)", "#86cdf5", "#56b4e9"},
+    {"rgb( 90,  90,  90)", "#b8b8b8", "#5a5a5a"}};
+constexpr int markers[] = {7, 5, 9, 11, 13, 6, 4};
+
+const Pen& pen_of(std::size_t setting) { return pens[setting % std::size(pens)]; }
+
+std::string line_style(std::size_t setting) {
+    return format("lc rgb '%s' lw 2 dt %u pt %d ps 0.8", pen_of(setting).colour,
+                  1 + unsigned(setting + setting / std::size(pens)) % 5,
+                  markers[setting % std::size(markers)]);
+}
+
+/// Every plot is one page: colours of text and axes follow the reader's choice of light or dark.
+std::string head(const std::string& title, double height) {
+    return format("set terminal svg size 480,%d dynamic font 'sans-serif,15' noenhanced\n", int(height)) +
+           "set encoding utf8\nset title " + gnuplot_quoted(title) +
+           "\nset border lc rgb 'black'\nset grid lc rgb '#888888' lw 0.5 dt 1\nset key font ',14'\n";
+}
+
+/// CSS that shows what has one colour as another.
+std::string recoloured(const std::string& from, const std::string& to) {
+    std::string css;
+    for (const std::string what : {"stroke", "fill", "color"})
+        css += " [" + what + "=\"" + from + "\"]{" + what + ":" + to + "}";
+    return css;
+}
+
+std::string restyled(std::string svg) {
+    std::string style = "<style>@media (prefers-color-scheme: dark) {";
+    for (const char* ink : {"black", "rgb(  0,   0,   0)", "rgb(0,0,0)"}) style += recoloured(ink, "#d6dae0");
+    for (const Pen& pen : pens) style += recoloured(pen.light, pen.dark);
+    style += "}</style>";
+    const auto end = svg.find("</desc>");
+    if (end != std::string::npos) svg.insert(end + 7, "\n" + style);
+    return svg;
+}
+
+struct Limits {
+    double low = INFINITY, high = 0;
+    void add(double v) {
+        if (v > 0 && std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    }
+    bool empty() const { return !(high > 0); }
+};
+
+/// Labels at 1, 2, 5 x 10^k; over three decades at 10^k alone.
+std::string ticks(const char* axis, const Limits& limits) {
+    std::string list;
+    const bool all = limits.high / limits.low < 1000;
+    for (double decade = std::pow(10.0, std::floor(std::log10(limits.low)) - 1); decade <= limits.high * 10;
+         decade *= 10)
+        for (const double step : {1.0, 2.0, 5.0})
+            if (all || step == 1) list += (list.empty() ? "" : ", ") + format("%.9g", step * decade);
+    return std::string("set ") + axis + "tics (" + list + ")\n";
+}
+
+std::string slug(const std::string& name) {
+    std::string out;
+    for (const char c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)))
+            out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        else if (!out.empty() && out.back() != '-')
+            out += '-';
+    while (!out.empty() && out.back() == '-') out.pop_back();
+    return out;
+}
+
+}  // namespace
+
+std::string gnuplot_quoted(const std::string& name) {
+    std::string out = "'";
+    for (const char c : name) {
+        if (static_cast<unsigned char>(c) < 32 || c == 127)
+            out += ' ';
+        else if (c == '\'')
+            out +=
+                "\xe2\x80\x99";  // gnuplot's own way to write one inside fails at the beginning of a string
+        else
+            out += c;
+    }
+    return out + "'";
+}
+
+std::string error_plot_script(const ErrorBench& bench, const std::string& scene, bool on_time) {
+    std::vector<const ErrorCurve*> curves;
+    for (const ErrorCurve& curve : bench.curves)
+        if (curve.scene == scene) curves.push_back(&curve);
+    Limits x, y;
+    std::string data;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        data += format("$curve%zu << EOD\n", i);
+        for (const ErrorPoint& p : curves[i]->points) {
+            if (!(p.relmse.value > 0))
+                continue;  // lost in the reference's own error: no place on a logarithmic axis
+            const double at = on_time ? p.seconds : p.spp;
+            // An interval that reaches below 0 is drawn to a tenth of the value.
+            const double low = std::max(p.relmse.low, 0.01 * p.relmse.value);
+            data += format("%.9g %.9g %.9g %.9g\n", at, std::sqrt(p.relmse.value), std::sqrt(low),
+                           std::sqrt(std::max(p.relmse.high, p.relmse.value)));
+            x.add(at), y.add(std::sqrt(p.relmse.value)),
+                y.add(std::sqrt(std::max(p.relmse.high, p.relmse.value)));
+        }
+        data += "EOD\n";
+    }
+    if (x.empty() || y.empty()) return "";
+    std::string script = head(scene + (on_time ? ": error against time" : ": error against samples"),
+                              360 + 19 * double(curves.size() + 1));
+    script += on_time ? "set xlabel 'seconds of rendering'\n" : "set xlabel 'samples per pixel'\n";
+    script +=
+        "set ylabel 'relative error (square root of relMSE)'\nset key tmargin center\nset format "
+        "xy "
+        "'%g'\n";
+    script += on_time ? "set logscale xy 10\n" : "set logscale y 10\nset logscale x 2\n";
+    script += format("set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", x.low / 1.25, x.high * 1.25,
+                     y.low / 1.4, y.high * 1.3);
+    script += ticks("y", y) + (on_time ? ticks("x", x) : "") + data + "plot ";
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        script += format(
+            "$curve%zu using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '%s' "
+            "notitle, ",
+            i, pen_of(i).colour);
+    // What independent samples give: the error falls with the square root of what is spent, from the first
+    // curve's beginning.
+    const auto first = std::find_if(curves[0]->points.begin(), curves[0]->points.end(),
+                                    [](const ErrorPoint& p) { return p.relmse.value > 0; });
+    if (first != curves[0]->points.end())
+        script +=
+            format("%.9g * (x / %.9g)**-0.5 with lines lc rgb 'black' lw 1 dt (4,4) title 'slope -0.5', ",
+                   std::sqrt(first->relmse.value), on_time ? first->seconds : first->spp);
+    for (std::size_t i = 0; i < curves.size(); ++i)
+        script += format("$curve%zu using 1:2 with linespoints ", i) + line_style(i) + " title " +
+                  gnuplot_quoted(curves[i]->setting) + (i + 1 < curves.size() ? ", " : "\n");
+    return script;
+}
+
+std::string efficiency_plot_script(const ErrorBench& bench) {
+    const std::size_t settings = bench.settings.size();
+    Limits x;
+    std::vector<std::string> data(settings);
+    std::string ticks;
+    for (std::size_t s = 0; s < bench.scenes.size(); ++s) {
+        const double top = -double(s * (settings + 1));
+        ticks += (ticks.empty() ? "" : ", ") + gnuplot_quoted(bench.scenes[s].name) +
+                 format(" %.9g", top - 0.5 * double(settings - 1));
+        for (const ErrorCurve& curve : bench.curves) {
+            if (curve.scene != bench.scenes[s].name || !curve.efficiency || !(curve.efficiency->value > 0))
+                continue;
+            const auto which =
+                std::find_if(bench.settings.begin(), bench.settings.end(),
+                             [&](const ErrorSetting& setting) { return setting.name == curve.setting; });
+            const auto j = static_cast<std::size_t>(which - bench.settings.begin());
+            const Estimate& e = *curve.efficiency;
+            data[j] += format("%.9g %.9g %.9g %.9g\n", e.value, top - double(j),
+                              std::max(e.low, 0.1 * e.value), e.high);
+            x.add(e.value), x.add(e.low), x.add(e.high);
+        }
+    }
+    if (x.empty()) return "";
+    const double rows = double(bench.scenes.size() * (settings + 1));
+    const double left = std::pow(10.0, std::floor(std::log10(x.low) - 0.3));
+    std::string script =
+        head("Efficiency: 1 / (MSE x seconds), longer is better", 120 + 19 * double(settings) + 24 * rows);
+    script +=
+        "set xlabel '1 / (MSE x seconds)'\nset logscale x 10\nset format x '%g'\nunset "
+        "grid\nset grid xtics "
+        "lc rgb '#888888' lw 0.5 dt 1\n";
+    script += "set key tmargin center\nset ytics (" + ticks + ") scale 0\n";
+    script +=
+        format("set xrange [%.9g:%.9g]\nset yrange [%.9g:1]\nset bars 0.4\n", left, x.high * 1.5, -rows + 1);
+    for (std::size_t j = 0; j < settings; ++j) script += format("$bars%zu << EOD\n", j) + data[j] + "EOD\n";
+    script += "plot ";
+    for (std::size_t j = 0; j < settings; ++j) {
+        if (data[j].empty()) continue;
+        const std::string name = format("$bars%zu", j);
+        if (script.back() != ' ') script += ", ";
+        script += name +
+                  format(
+                      " using (%.9g):2:(%.9g):1:($2-0.4):($2+0.4) with boxxyerror fs %s border lc rgb '%s' "
+                      "lc rgb '%s' title ",
+                      left, left, j % 2 ? format("pattern %u", unsigned(3 + j) % 8).c_str() : "solid 0.75",
+                      pen_of(j).colour, pen_of(j).colour) +
+                  gnuplot_quoted(bench.settings[j].name) + ", " + name +
+                  " using 1:2:3:4 with xerrorbars lc rgb 'black' lw 1 pt 0 notitle";
+        script += j + 1 < settings ? ", " : "\n";
+    }
+    return script;
+}
+
+ErrorPlots draw_error_plots(const ErrorBench& bench) {
+    ErrorPlots result;
+    const TemporaryFolder folder;
+    const auto script_path = folder.path() / "plot.gp", picture_path = folder.path() / "plot.svg",
+               log_path = folder.path() / "log";
+    auto draw = [&](const std::string& script, ErrorPlot plot) {
+        if (script.empty() || !result.missing.empty()) return;
+        write_file(script_path, script);
+        const auto status = run_program({"gnuplot", script_path.string()}, picture_path, log_path);
+        if (!status) {
+            result.missing =
+                "There are no plots, because the program gnuplot is not installed (Debian package: "
+                "gnuplot-nox).";
+        } else if (*status != 0) {
+            const auto log = read_file(log_path, 1 << 20);
+            result.missing = "gnuplot failed to draw " + plot.file + " (exit status " +
+                             std::to_string(*status) + "): " + std::string(log.begin(), log.end());
+        } else {
+            const auto bytes = read_file(picture_path);
+            plot.svg = restyled({bytes.begin(), bytes.end()});
+            result.plots.push_back(std::move(plot));
+        }
+    };
+    for (std::size_t i = 0; i < bench.scenes.size(); ++i) {
+        const std::string& name = bench.scenes[i].name;
+        const std::string number = bench.scenes.size() > 1 ? format("%02zu-", i + 1) : "";
+        draw(error_plot_script(bench, name, false),
+             {number + slug(name) + "-samples.svg", name,
+              "Relative error of " + name + " against samples per pixel, one curve per setting"});
+        draw(error_plot_script(bench, name, true),
+             {number + slug(name) + "-time.svg", name,
+              "Relative error of " + name + " against seconds, one curve per setting"});
+    }
+    draw(efficiency_plot_script(bench), {"efficiency.svg", "", "Efficiency of every setting on every scene"});
+    return result;
+}
+
+}  // namespace triad

@@ -1,0 +1,226 @@
+#include "session/output.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <iterator>
+#include <map>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "display/resolve.h"
+#include "session/metadata.h"
+
+namespace fs = std::filesystem;
+
+namespace triad {
+namespace {
+
+std::string extension_of(const std::string& path) {
+    if (path == "-") return ".png";
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return extension;
+}
+
+bool is_linear_format(const std::string& extension) { return extension == ".exr" || extension == ".hdr"; }
+
+/// What outputs are made of; each form is made when it is first asked for.
+struct Source {
+    Picture window;      ///< sizes only
+    bool alpha = false;  ///< keep it where the format can
+    std::function<std::vector<float>()> linear, display;
+    bool linear_is_display = false;
+    std::vector<Channel> layers;  ///< of EXR files
+};
+
+EncodedPicture encoded(const Source& source, const OutputStyle& style) {
+    const std::vector<float> rgba = source.display();
+    const unsigned channels = source.alpha ? 4 : 3;
+    return {source.window.width,
+            source.window.height,
+            channels,
+            style.bits,
+            encode_srgb(rgba, channels, style.bits),
+            {}};
+}
+
+/// R, G, B and, where it means something, A (RGB associated).
+Picture linear(const Source& source) {
+    const std::vector<float> rgba = source.linear();
+    Picture picture = source.window;
+    const char* const names[] = {"R", "G", "B", "A"};
+    for (std::size_t c = 0; c < (source.alpha ? 4 : 3); ++c) {
+        Channel channel{names[c], std::vector<float>(rgba.size() / 4)};
+        for (std::size_t i = 0; i < channel.values.size(); ++i) channel.values[i] = rgba[4 * i + c];
+        picture.channels.push_back(std::move(channel));
+    }
+    return picture;
+}
+
+void write_standard_output(const std::vector<std::uint8_t>& bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        throw Error(Exit::scene, "Cannot write the picture to standard output: it is closed or full.");
+}
+
+}  // namespace
+
+bool is_exr(const std::string& path) { return extension_of(path) == ".exr"; }
+
+bool is_linear(const std::string& path) { return is_linear_format(extension_of(path)); }
+
+bool is_picture(const std::string& path) {
+    const std::string extension = extension_of(path);
+    for (const char* known : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})
+        if (extension == known) return true;
+    return false;
+}
+
+void check_format(const std::string& path) {
+    if (is_picture(path)) return;
+    throw Error(
+        Exit::usage,
+        "-o " + path + ": the extension must be .exr, .hdr, .png or .jpg (or - for PNG on standard output).");
+}
+
+void check_format_for(const Reconstruction& method, const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (method.panel && extension_of(path) == ".hdr")
+            throw Error(Exit::usage,
+                        "-o " + path +
+                            ": .hdr files cannot say which panel they were made for, and on others "
+                            "they are wrong. Give .exr or .png, or leave --panel out.");
+}
+
+void check_writable(const std::string& path) {
+    if (path == "-") return;
+    if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path + ": it is a folder.");
+    // What writing will do: make a file beside it. Only the attempt tells; access rights are not the whole
+    // story.
+    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+    if (!fs::is_directory(folder))
+        throw Error(Exit::scene, "Cannot write " + path + ": there is no folder " + folder.string() + ".");
+    if (fs::exists(path) && !fs::is_regular_file(path)) return;  // a device or pipe is written to directly
+    const fs::path probe = folder / (".triad-probe" + fs::path(path).filename().string());
+    const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
+    if (file < 0) throw Error(Exit::scene, "Cannot write " + path + ": " + std::strerror(errno) + ".");
+    ::close(file);
+    fs::remove(probe);
+}
+
+DisplaySettings display_settings(const OutputStyle& style, bool alpha) {
+    static const std::map<std::string, ToneMap> maps = {{"none", ToneMap::none},
+                                                        {"aces", ToneMap::aces},
+                                                        {"agx", ToneMap::agx},
+                                                        {"khronos", ToneMap::khronos}};
+    DisplaySettings settings;
+    settings.exposure_ev = static_cast<float>(style.exposure);
+    settings.tone_map = maps.at(style.tone_map);
+    settings.background = style.background;
+    settings.alpha = alpha;
+    apply(style.reconstruction, settings);
+    return settings;
+}
+
+std::vector<float> display_of(Device& device, const Film& film, const OutputStyle& style) {
+    return resolve_display(device, film, display_settings(style, has_alpha(film)));
+}
+
+std::vector<float> linear_of(Device& device, const Film& film, const OutputStyle& style) {
+    if (style.reconstruction.display_linear()) return display_of(device, film, style);
+    std::vector<float> rgba;
+    if (style.reconstruction.taps) {
+        DisplaySettings settings = display_settings(style, has_alpha(film));
+        settings.order = ToneOrder::never;
+        settings.exposure_ev = 0, settings.background.reset();
+        rgba = resolve_display(device, film, settings);
+    } else {
+        rgba = resolve_linear(film);
+    }
+    if (style.background) put_on_background(rgba, *style.background);
+    return rgba;
+}
+
+namespace {
+
+void write_all(const std::vector<std::string>& paths, Source source, const OutputStyle& style,
+               const Metadata& metadata) {
+    std::optional<Picture> linear_picture;
+    std::optional<EncodedPicture> display;
+    for (const std::string& path : paths) {
+        const std::string extension = extension_of(path);
+        if (is_linear_format(extension)) {
+            if (!linear_picture) {
+                linear_picture = linear(source);
+                linear_picture->metadata = metadata;
+                if (source.linear_is_display) linear_picture->metadata["triad:values"] = "display-linear";
+                std::move(source.layers.begin(), source.layers.end(),
+                          std::back_inserter(linear_picture->channels));
+            }
+            if (extension == ".hdr") {
+                write_hdr(path, *linear_picture);
+            } else if (const std::size_t saturated = write_exr(path, *linear_picture, style.half)) {
+                warn(path + ": " + std::to_string(saturated) +
+                     " values do not fit 16 bits and became 65504; leave out --half to keep them.");
+            }
+            continue;
+        }
+        if (!display) {
+            display = encoded(source, style);
+            display->metadata = metadata;
+        }
+        if (path == "-")
+            write_standard_output(encode_picture(extension, *display));
+        else
+            write_encoded(path, *display);
+    }
+}
+
+}  // namespace
+
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+    Source source;
+    source.window.width = film.width, source.window.height = film.height;
+    source.window.x = film.x, source.window.y = film.y;
+    source.window.full_width = film.full_width, source.window.full_height = film.full_height;
+    source.alpha = has_alpha(film) && !style.background && !style.reconstruction.panel;
+    source.linear = [&] { return linear_of(device, film, style); };
+    source.display = [&] { return display_of(device, film, style); };
+    source.linear_is_display = style.reconstruction.display_linear();
+    source.layers = std::move(layers);
+    write_all(paths, std::move(source), style, metadata);
+}
+
+void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
+                   const OutputStyle& style, const Metadata& metadata) {
+    const bool shown = image.encoded || style.reconstruction.display_linear();
+    const bool keep_alpha = alpha && !style.background && !style.reconstruction.panel;
+    const auto resolve = [&](bool linear) {
+        DisplaySettings settings = display_settings(style, alpha);
+        if (linear && !shown) {
+            settings.order = ToneOrder::never;
+            settings.exposure_ev = 0, settings.background.reset();
+        }
+        std::vector<float> rgba = resolve_display(device, image, settings);
+        if (linear && !shown && style.background) put_on_background(rgba, *style.background);
+        return rgba;
+    };
+    Source source;
+    source.window.width = source.window.full_width = image.width();
+    source.window.height = source.window.full_height = image.height();
+    source.alpha = keep_alpha;
+    source.linear = [&] { return resolve(true); };
+    source.display = [&] { return resolve(false); };
+    source.linear_is_display = shown;
+    write_all(paths, std::move(source), style, metadata);
+}
+
+}  // namespace triad

@@ -1,0 +1,55 @@
+#pragma once
+/// Pictures out: from a film to files, by their extension.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+#include "display/reconstruction.h"
+#include "io/io.h"
+#include "scene/film.h"
+
+namespace triad {
+
+/// How a film becomes pictures.
+struct OutputStyle {
+    double exposure = 0;  ///< EV: radiance is multiplied by 2^exposure before the tone map
+    std::string tone_map = "khronos";
+    std::optional<vec3> background;  ///< linear; put behind everything that is transparent
+    Reconstruction reconstruction;   ///< EXR and HDR hold what a display shows where it says so
+    unsigned bits = 8;               ///< of PNG
+    bool half = false;               ///< of EXR
+};
+
+bool is_exr(const std::string& path);
+/// Whether the extension is that of a picture.
+bool is_picture(const std::string& path);
+/// Whether the extension is that of a format of linear values.
+bool is_linear(const std::string& path);
+/// Throws Error(usage) when `path` ("-" is standard output, as PNG) has no extension of a picture.
+void check_format(const std::string& path);
+/// What only files that can say so may hold: Throws Error(usage) for drives of a panel in a .hdr file.
+void check_format_for(const Reconstruction& method, const std::vector<std::string>& paths);
+/// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.
+void check_writable(const std::string& path);
+
+/// The part of the way to pixels that the style decides.
+DisplaySettings display_settings(const OutputStyle& style, bool alpha);
+
+/// What a PNG shows before the sRGB curve: tone-mapped RGBA, on the background where there is one.
+std::vector<float> display_of(Device& device, const Film& film, const OutputStyle& style);
+/// What an EXR holds: scene-linear RGBA, or what a display shows.
+std::vector<float> linear_of(Device& device, const Film& film, const OutputStyle& style);
+
+/// Writes the film to each path in the form that its extension asks for. `layers` go into EXR files,
+/// `metadata` into all. Where the film has alpha and the style no background colour, formats that can keep
+/// alpha do.
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata);
+
+/// The same from any picture's bins, `name` for messages. Formats of linear values hold what a display shows
+/// where the bins are tone-mapped already.
+void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
+                   const OutputStyle& style, const Metadata& metadata);
+
+}  // namespace triad

@@ -1,0 +1,24 @@
+#pragma once
+/// From the options of `triad render` to what a renderer needs: scene, settings, device.
+#include "device/device.h"
+#include "pack/settings.h"
+#include "scene/scene.h"
+#include "session/render_request.h"
+
+namespace triad {
+
+/// The scene with its light: environment of the command line, or a plain sky where nothing gives light.
+/// Warnings are logged. Throws Error(scene), Error(unsupported).
+Scene load_scene(const RenderRequest& options);
+
+/// "MATERIAL=NAME": every material of that name becomes that glass. Throws Error(usage).
+void apply_glass(Scene& scene, const std::string& text);
+
+/// What decides the picture, the view chosen. Throws Error(usage) for a pixel outside it.
+RenderSettings settings_of(const RenderRequest& options, const Scene& scene);
+
+/// The device of --device and --threads, tuned, and checked unless it was before. Throws Error(device) when
+/// it computes wrong answers and --force is not given.
+Device open_device(const RenderRequest& options);
+
+}  // namespace triad

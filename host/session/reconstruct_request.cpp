@@ -1,0 +1,28 @@
+#include "session/reconstruct_request.h"
+
+#include "base/error.h"
+#include "session/panel_file.h"
+
+namespace triad {
+namespace {
+
+constexpr double usual_ppd = 45;  ///< a 27 inch display of 2560 x 1440 pixels at 0.6 m
+
+}  // namespace
+
+Reconstruction ReconstructRequest::make(std::optional<uvec2> film_bins) const {
+    ReconstructionChoice choice{method, filter, bins ? bins : film_bins, {}, refine_steps};
+    if (panel.empty() && (ppd || distance))
+        throw Error(Exit::usage, "--ppd and --distance say how a display is seen: name it with --panel.");
+    if (distance && !pitch)
+        throw Error(Exit::usage, "--distance needs --pitch, the size of a pixel in the same unit.");
+    if (!panel.empty()) {
+        PanelView view{panel_named(panel), usual_ppd};
+        view.ppd = distance ? pixels_per_degree(*distance, *pitch)
+                            : ppd.value_or(view.panel.ppd.value_or(usual_ppd));
+        choice.panel = view;
+    }
+    return reconstruction_of(choice);
+}
+
+}  // namespace triad

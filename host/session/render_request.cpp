@@ -1,0 +1,66 @@
+#include "session/render_request.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace triad {
+
+RenderGoal RenderRequest::goal() const {
+    const bool ends_itself = error || time;
+    const unsigned bins = style.reconstruction.bins_x * style.reconstruction.bins_y;
+    const std::uint64_t limit = whole_bins(spp.value_or(ends_itself ? most_samples : 64), bins);
+    return {.samples = samples.value_or(SampleRange{0, limit}),
+            .error = error.value_or(0),
+            .seconds = time.value_or(0),
+            .adaptive = adaptive.value_or(ends_itself)};
+}
+
+void complete(RenderRequest& o) {
+    if (o.pixel && (!o.outputs.empty() || !o.film_path.empty() || o.crop || o.error || o.time || o.adaptive))
+        throw Error(
+            Exit::usage,
+            "--pixel makes no picture: it cannot be combined with -o, --film, --crop, --error, --time or "
+            "--adaptive.");
+    if (o.integrator != Integrator::automatic && o.integrator != Integrator::path &&
+        (o.pixel || o.adaptive.value_or(false)))
+        throw Error(
+            Exit::usage,
+            "Photons light the picture as a whole: --integrator photons, light and photon-map cannot be "
+            "combined with --pixel or --adaptive on; use --integrator path there.");
+    if (o.pixel || o.adaptive.value_or(false)) o.integrator = Integrator::path;
+    if (o.integrator == Integrator::path && (o.photons || o.photon_radius > 0 || !o.aim_photons))
+        throw Error(Exit::usage,
+                    "--photons, --photon-radius and --photon-aim are for photons, and here paths bring all "
+                    "light: give "
+                    "--integrator photons, light or photon-map.");
+    if (o.integrator != Integrator::photon_map && !o.final_gather)
+        throw Error(Exit::usage, "--final-gather is for --integrator photon-map.");
+    // A film alone is a complete result: a part of a larger render.
+    if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
+    for (const std::string& path : o.outputs) check_format(path);
+    if (std::count(o.outputs.begin(), o.outputs.end(), "-") + (o.json_path == "-") > 1)
+        throw Error(Exit::usage, "Only one of the outputs can go to standard output.");
+    if (std::find(o.aovs.begin(), o.aovs.end(), "all") != o.aovs.end())
+        o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance", "error"};
+    const bool exr =
+        std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& path) { return is_exr(path); });
+    if (!o.aovs.empty() && !exr)
+        throw Error(Exit::usage, "--aov needs an .exr output to put the layers in; add -o FILE.exr.");
+    if (o.samples && (o.spp || o.error || o.time || o.adaptive.value_or(false)))
+        throw Error(
+            Exit::usage,
+            "--samples names exactly what is rendered: it cannot be combined with --spp, --error, --time or "
+            "--adaptive on.");
+    o.style.reconstruction = o.reconstruct.make();
+    check_format_for(o.style.reconstruction, o.outputs);
+    const std::uint64_t bins = o.style.reconstruction.bins_x * o.style.reconstruction.bins_y;
+    if (o.samples && (o.samples->begin % bins != 0 || o.samples->end % bins != 0))
+        throw Error(Exit::usage, "--samples: with " + std::to_string(bins) +
+                                     " bins per pixel, ranges begin and end at multiples of " +
+                                     std::to_string(bins) + ", so that every bin has as many samples.");
+    if (o.crop && ((*o.crop)[2] == 0 || (*o.crop)[3] == 0))
+        throw Error(Exit::usage, "--crop: width and height must be at least 1.");
+}
+
+}  // namespace triad

@@ -1,0 +1,68 @@
+#pragma once
+/// What a render is asked for, as plain data; nothing here touches a scene or a device.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/math.h"
+#include "pack/settings.h"
+#include "render/schedule.h"
+#include "session/output.h"
+#include "session/reconstruct_request.h"
+
+namespace triad {
+
+/// What the fixed point of the film has room for.
+constexpr std::uint64_t most_samples = 1u << 30;
+
+struct RenderRequest {
+    std::string scene_path;  ///< empty: the built-in scene
+    std::vector<std::string> outputs;
+    std::string film_path, json_path, kernels_path;
+    bool force = false;  ///< render on a device that computes wrong answers
+    std::optional<uvec2> size;
+    std::optional<std::array<unsigned, 4>> crop;
+    std::optional<std::array<unsigned, 2>>
+        pixel;                         ///< tell everything about this one instead of making a picture
+    std::optional<std::uint64_t> spp;  ///< 64 where nothing else ends the render
+    std::optional<double> error, time;
+    std::optional<bool> adaptive;
+    std::optional<SampleRange> samples;
+    std::uint32_t seed = 0;
+    unsigned max_depth = 0;
+    double roulette = RenderSettings{}.roulette;
+    Integrator integrator = Integrator::automatic;
+    std::uint64_t photons = 0;
+    bool aim_photons = true, final_gather = true;
+    double photon_radius = 0;  ///< the last four: as in RenderSettings
+    bool independent = false;  ///< samples, instead of Sobol's sequence
+    Spectral spectral = Spectral::automatic;
+    ReconstructRequest reconstruct;
+    std::string device;
+    unsigned threads = 0;
+
+    int scene_index = -1;
+    std::string camera;
+    std::optional<std::array<double, 6>> look_at;
+    std::optional<double> fov;  ///< vertical, degrees
+    std::optional<double> aperture, focus;
+
+    std::vector<std::string> glass;  ///< MATERIAL=NAME
+    std::string env_path;
+    double env_rotate = 0;  ///< degrees
+    double env_strength = 1;
+    bool transparent = false;
+    OutputStyle style;  ///< exposure, tone map, background colour, half; complete() adds the reconstruction
+    std::vector<std::string> aovs;
+    std::string progress = "auto";
+
+    /// What ends the render.
+    RenderGoal goal() const;
+};
+
+/// Fills in the default output and checks what the members say together, in the words of the command line.
+/// Throws Error(usage).
+void complete(RenderRequest& request);
+
+}  // namespace triad

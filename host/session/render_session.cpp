@@ -1,0 +1,131 @@
+#include "session/render_session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <limits>
+
+#include "base/log.h"
+#include "base/machine.h"
+#include "base/parallel_for.h"
+#include "base/text.h"
+#include "display/perceived_noise.h"
+#include "display/perceived_sets.h"
+#include "io/io.h"
+#include "session/prepare.h"
+
+namespace triad {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Everything that can be wrong is found before the long part.
+RenderRequest checked(RenderRequest request) {
+    complete(request);
+    for (const std::string& path : request.outputs) check_writable(path);
+    for (const std::string& path : {request.film_path, request.json_path})
+        if (!path.empty()) check_writable(path);
+    set_host_threads(request.threads);
+    if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
+    return request;
+}
+
+Scene timed_scene(const RenderRequest& request, double& seconds) {
+    const auto start = Clock::now();
+    Scene scene = load_scene(request);
+    seconds = since(start);
+    return scene;
+}
+
+/// The planes of --aov, as EXR channels.
+std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const Film& film) {
+    std::vector<Channel> layers;
+    auto asked = [&](const char* name) {
+        return std::find(o.aovs.begin(), o.aovs.end(), name) != o.aovs.end();
+    };
+    auto add = [&](const std::string& name, const char* parts, const auto& values) {
+        const std::size_t n = std::char_traits<char>::length(parts);
+        for (std::size_t c = 0; c < n; ++c) {
+            Channel channel{name + "." + parts[c], std::vector<float>(film.pixels())};
+            for (std::size_t i = 0; i < film.pixels(); ++i)
+                channel.values[i] = static_cast<float>(values[i * n + c]);
+            layers.push_back(std::move(channel));
+        }
+    };
+    if (asked("albedo") || asked("normal") || asked("position") || asked("depth")) {
+        constexpr unsigned samples = 16;  // edges and lens blur; the planes have no other noise
+        const FeaturePlanes planes = renderer.feature_planes(samples);
+        if (asked("albedo")) add("albedo", "RGB", planes.albedo);
+        if (asked("normal")) add("normal", "XYZ", planes.normal);
+        if (asked("position")) add("position", "XYZ", planes.position);
+        if (asked("depth")) add("depth", "Z", planes.depth);
+    }
+    if (asked("samples")) add("samplecount", "Y", film.samples);
+    if (asked("variance")) {
+        std::vector<float> variance = mean_variance(film);
+        if (variance.empty()) variance.assign(film.pixels() * 3, std::numeric_limits<float>::quiet_NaN());
+        add("variance", "RGB", variance);
+    }
+    if (asked("error")) {
+        std::vector<float> errors = error_map(film);
+        if (errors.empty()) errors.assign(film.pixels(), std::numeric_limits<float>::quiet_NaN());
+        add("error", "Y", errors);
+    }
+    return layers;
+}
+
+}  // namespace
+
+RenderSession::RenderSession(RenderRequest request)
+    : request_(checked(std::move(request))),
+      scene_(timed_scene(request_, load_seconds_)),
+      settings_(settings_of(request_, scene_)),
+      device_(open_device(request_)),
+      renderer_(std::make_unique<Renderer>(device_, scene_, settings_)),
+      goal_(request_.goal()) {
+    const auto& panel = request_.style.reconstruction.panel;
+    if (!panel || request_.pixel) return;
+    const DisplaySettings display = display_settings(request_.style, false);
+    goal_.perceived_noise = [noise = PerceivedNoise(device_, panel->panel, panel->ppd, display)](
+                                const Film& film) { return noise.of(film); };
+    if (goal_.error == 0) goal_.set_errors = perceived_sets(device_, *panel, display);
+}
+
+RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& report) {
+    RenderOutcome outcome;
+    outcome.result = renderer_->render_until(goal_, report);
+    outcome.film = renderer_->film();
+    outcome.numbers = outcome.film.sample_numbers();
+    outcome.relmse = estimated_relmse(outcome.film);
+    return outcome;
+}
+
+std::string RenderSession::scene_name() const {
+    return request_.scene_path.empty() ? "built-in"
+                                       : std::filesystem::path(request_.scene_path).filename().string();
+}
+
+Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
+    const RenderResult& result = outcome.result;
+    Metadata metadata = triad::metadata_of(outcome.film);
+    metadata["triad:driver"] = device_.info().driver;
+    metadata["triad:stopped_by"] = to_string(result.stop);
+    metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
+    metadata["triad:scene_name"] = scene_name();
+    metadata["triad:machine"] = machine_words();
+    metadata["triad:compute_units"] = std::to_string(device_.info().compute_units);
+    describe(request_.style.reconstruction, metadata);
+    if (result.perceived_noise) metadata["triad:perceived_noise"] = format("%.4g", *result.perceived_noise);
+    if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
+    return metadata;
+}
+
+void RenderSession::write(const RenderOutcome& outcome) {
+    if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
+    write_outputs(request_.outputs, device_, outcome.film, request_.style,
+                  layers_of(request_, *renderer_, outcome.film), metadata_of(outcome));
+}
+
+}  // namespace triad

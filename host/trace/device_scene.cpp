@@ -1,0 +1,78 @@
+#include "trace/device_scene.h"
+
+#include "base/colour.h"
+#include "pack/albedo_tables.h"
+#include "pack/ray_filter.h"
+
+namespace triad {
+namespace {
+
+const std::vector<float>& srgb_table() {
+    static const std::vector<float> table = [] {
+        std::vector<float> values;
+        for (int i = 0; i < 256; ++i) values.push_back(static_cast<float>(srgb_decode(i / 255.0)));
+        return values;
+    }();
+    return table;
+}
+
+}  // namespace
+
+DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> packed)
+    : device_(device), packed_(std::move(packed)) {
+    const auto add = [&]<class T>(DeviceArray<T>& to, DeviceArray<T> array) {
+        bytes_ += array.bytes();
+        to = std::move(array);
+    };
+    const auto copy = [&]<class T>(DeviceArray<T>& to, const std::vector<T>& values) {
+        add(to, device.upload(values));
+    };
+    const auto share = [&]<class T>(DeviceArray<T>& to, const AlignedVector<T>& values) {
+        add(to, device.share(std::span<const T>(values), packed_));
+    };
+    const PackedSurfaces& surfaces = *packed_->surfaces;
+    dev::SceneArguments& a = arrays_;
+    share(a.nodes, packed_->bvh.nodes);
+    share(a.blocks, packed_->bvh.blocks);
+    copy(a.instances, packed_->instance_table);
+    share(a.triangles, packed_->triangles);
+    share(a.geometries, packed_->geometries);
+    share(a.normals, packed_->normals);
+    share(a.tangents, packed_->tangents);
+    share(a.uvs, packed_->uvs);
+    share(a.colours, packed_->colours);
+    copy(a.materials, surfaces.materials);
+    copy(a.texture_uses, surfaces.texture_uses);
+    copy(a.textures, surfaces.textures);
+    share(a.texels, surfaces.texels);
+    copy(a.srgb, srgb_table());
+    add(a.albedo, device.upload(albedo_tables()));
+    copy(a.lights, packed_->lights);
+    copy(a.light_cdf, packed_->light_cdf);
+    share(a.env_texels, surfaces.env_texels);
+    share(a.env_rows, surfaces.env_rows);
+    share(a.env_columns, surfaces.env_columns);
+    copy(a.env_cosines, surfaces.env_cosines);
+    copy(a.spectrum, packed_->spectrum);
+    copy(a.indices, surfaces.indices);
+}
+
+Arguments DeviceScene::arguments(const DeviceArray<dev::Frame>& frame, const DeviceArray<float>& ray_filter,
+                                 const PhotonMapBuffers& photon_map) const {
+    dev::SceneArguments a = arrays_;
+    a.frame = frame;
+    a.ray_filter = ray_filter;
+    a.photon_map = photon_map.map;
+    a.photons = photon_map.photons;
+    a.photon_ends = photon_map.ends;
+    return arguments_of(a);
+}
+
+Arguments scene_arguments(Device& device, const PackedScene& packed, const RenderSettings& settings,
+                          const PhotonMapBuffers& photon_map) {
+    const DeviceScene scene(device, std::make_shared<PackedScene>(packed));
+    return scene.arguments(device.upload(std::vector<dev::Frame>{frame_of(packed, settings)}),
+                           device.upload(ray_filter_tables(settings)), photon_map);
+}
+
+}  // namespace triad

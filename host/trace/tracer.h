@@ -1,0 +1,65 @@
+#pragma once
+/// One device's work on one picture: from lists of work to a part of the film.
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "trace/device_scene.h"
+#include "trace/film_part.h"
+#include "trace/photon_tracer.h"
+
+namespace triad {
+
+/// Tiles of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
+/// there is one program for everything, and compiling is over before rendering begins.
+constexpr std::size_t largest_launch = largest_launch_items / FILM_TILE_PIXELS;
+
+/// The program that traces (or records) paths with these settings.
+std::string program_of(const RenderSettings& settings, const std::string& what);
+
+class Tracer {
+  public:
+    /// Compiles the kernels, with a first, discarded launch, as some drivers compile at launches. `shape`: of
+    /// the film, its arrays are not read.
+    Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& settings, const Features& features,
+           const Film& shape);
+
+    /// Begins again, with another seed: the part of the film is empty.
+    void restart(std::uint32_t seed);
+
+    /// The tiles that trace() is to take samples of.
+    void set_work(std::span<const dev::TileWork> work);
+    /// Enqueues samples of work[first, first + count), which are counted from first_sample.
+    void trace(std::size_t first, std::size_t count, std::uint64_t first_sample);
+    void finish() { device_.finish(); }
+
+    Device& device() const { return device_; }
+    const DeviceScene& scene() const { return *scene_; }
+    const RenderSettings& settings() const { return settings_; }
+    const Features& features() const { return features_; }
+    const dev::Frame& frame() const { return frame_; }
+    const Arguments& arguments() const { return arguments_; }  ///< of the scene
+    FilmPart& part() { return part_; }
+    PhotonTracer& photons() { return photons_; }
+    std::uint64_t bytes() const;
+
+    /// Samples that it traces in a second, by what was measured last; 0: nothing was.
+    double pace = 0;
+
+  private:
+    std::shared_ptr<const DeviceScene> scene_;
+    Device& device_;
+    RenderSettings settings_;
+    Features features_;
+    dev::Frame frame_;
+    DeviceArray<dev::Frame> frame_buffer_;
+    PhotonTracer photons_;
+    Arguments arguments_;
+    FilmPart part_;
+    DeviceArray<dev::TileWork> work_;
+    std::vector<dev::TileWork> tiles_;  ///< what work_ holds
+    Kernel trace_paths_;
+};
+
+}  // namespace triad
