@@ -27,13 +27,13 @@ inline const char* const source = R"(#include "common/random.h"
 typedef struct Case {
     float base[3], metallic, roughness, ior, specular, specular_colour[3], transmission, solid, inside, mu, u_lobe, u, v, unused[3];
 } Case;
-TRIAD_FUNCTION float3 make(const global Case* c, Bsdf* b, global const float* tables) {
+TRIAD_FUNCTION Vec3 make(const global Case* c, Bsdf* b, global const float* tables) {
     BsdfInput in;
-    in.base_colour = vload3(0, c->base);
+    in.base_colour = VEC3_OF(c->base);
     in.metallic = c->metallic, in.roughness = c->roughness, in.ior = c->ior, in.specular = c->specular;
-    in.specular_colour = vload3(0, c->specular_colour);
+    in.specular_colour = VEC3_OF(c->specular_colour);
     in.transmission = c->transmission, in.solid = c->solid > 0.0f, in.inside = c->inside > 0.0f;
-    const float3 wo = (float3)(sqrt((1.0f - c->mu) * (1.0f + c->mu)), 0.0f, c->mu);
+    const Vec3 wo = vec3_make(sqrt((1.0f - c->mu) * (1.0f + c->mu)), 0.0f, c->mu);
     *b = bsdf_make(&in, wo, tables);
     return wo;
 }
@@ -47,42 +47,42 @@ TRIAD_FUNCTION float energy_scale(const Bsdf* b, uint event) {
 }
 /* Mean energy over `samples` samples: out = (r, g, b, share of transmission), (largest |eval - weight pdf| / value, NaNs,
  * largest weight, samples that are not unit or on the wrong side). */
-__kernel void furnace(__global float4* out, __global const Case* cases, __global const float* tables, uint samples, uint count) {
+__kernel void furnace(__global Vec4* out, __global const Case* cases, __global const float* tables, uint samples, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     Bsdf b;
-    const float3 wo = make(cases + i, &b, tables);
-    float3 sum = (float3)(0.0f);
+    const Vec3 wo = make(cases + i, &b, tables);
+    Vec3 sum = vec3_splat(0.0f);
     float transmitted = 0.0f, difference = 0.0f, nans = 0.0f, largest = 0.0f, wrong = 0.0f;
     for (uint k = 0; k < samples; ++k) {
         const Sampler s = sampler_make(i, k, 0u, 0u, 3u);
         const BsdfSample a = bsdf_sample(&b, wo, sampler_2d(&s, 1u).x, sampler_2d(&s, 0u));
-        const float3 w = a.weight * energy_scale(&b, a.event);
-        sum += w;
-        transmitted += a.event & BSDF_TRANSMIT ? math_average(w) : 0.0f;
-        largest = math_max(math_max3(w), largest);
+        const Vec3 w = colour_scale(a.weight, energy_scale(&b, a.event));
+        sum = vec3_add(sum, w);
+        transmitted += a.event & BSDF_TRANSMIT ? vec3_average(w) : 0.0f;
+        largest = math_max(vec3_largest(w), largest);
         nans += math_is_finite(w.x + w.y + w.z + a.pdf + a.wi.x + a.wi.y + a.wi.z) && math_min(w.x, math_min(w.y, w.z)) >= 0.0f ? 0.0f : 1.0f;
         if (a.event == BSDF_NONE) continue;
-        wrong += fabs(math_dot(a.wi, a.wi) - 1.0f) < 2e-6f && (a.wi.z < 0.0f) == ((a.event & BSDF_TRANSMIT) != 0u) ? 0.0f : 1.0f;
+        wrong += fabs(vec3_dot(a.wi, a.wi) - 1.0f) < 2e-6f && (a.wi.z < 0.0f) == ((a.event & BSDF_TRANSMIT) != 0u) ? 0.0f : 1.0f;
         wrong += (a.pdf > 0.0f) == ((a.event & BSDF_DELTA) == 0u) ? 0.0f : 1.0f;
         if (a.pdf > 0.0f) {
             float pdf;
-            const float3 f = bsdf_eval(&b, wo, a.wi, &pdf), d = fabs(f - a.weight * a.pdf);
-            difference = math_max((math_max3(d) + fabs(pdf - a.pdf)) / (math_max3(f) + pdf), difference);
+            const Vec3 f = bsdf_eval(&b, wo, a.wi, &pdf), d = vec3_abs(vec3_sub(f, vec3_scale(a.weight, a.pdf)));
+            difference = math_max((vec3_largest(d) + fabs(pdf - a.pdf)) / (vec3_largest(f) + pdf), difference);
         }
     }
-    out[2 * i] = (float4)(sum, transmitted) / convert_float(samples);
-    out[2 * i + 1] = (float4)(difference, nans, largest, wrong);
+    out[2 * i] = vec4_div(vec3_with(sum, transmitted), vec4_splat((float)samples));
+    out[2 * i + 1] = vec4_make(difference, nans, largest, wrong);
 }
 /* Many samples of cases[0]: (wi, pdf). */
-__kernel void draw(__global float4* out, __global const Case* cases, __global const float* tables, uint count) {
+__kernel void draw(__global Vec4* out, __global const Case* cases, __global const float* tables, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     Bsdf b;
-    const float3 wo = make(cases, &b, tables);
+    const Vec3 wo = make(cases, &b, tables);
     const Sampler s = sampler_make(1u, i, 0u, 0u, 9u);
     const BsdfSample a = bsdf_sample(&b, wo, sampler_2d(&s, SAMPLER_SOBOL_SETS).x, sampler_2d(&s, SAMPLER_SOBOL_SETS + 1u));
-    out[i] = a.event == BSDF_NONE ? (float4)(0.0f) : (float4)(a.wi, a.pdf);
+    out[i] = a.event == BSDF_NONE ? vec4_splat(0.0f) : vec3_with(a.wi, a.pdf);
 }
 /* Integral of the pdf over the cells of a grid in (cos theta, phi), by 64 x 32 midpoints each. */
 __kernel void integrate(__global float* out, __global const Case* cases, __global const float* tables, uint rows,
@@ -90,50 +90,50 @@ __kernel void integrate(__global float* out, __global const Case* cases, __globa
     const uint i = get_global_id(0);
     if (i >= count) return;
     Bsdf b;
-    const float3 wo = make(cases, &b, tables);
+    const Vec3 wo = make(cases, &b, tables);
     float sum = 0.0f;
     for (uint j = 0; j < 2048; ++j) {
         const float z = -1.0f + 2.0f * (convert_float(i / columns) + (convert_float(j / 32) + 0.5f) / 64) / rows;
         float s, c, pdf;
         math_sincos_turns((convert_float(i % columns) + (convert_float(j % 32) + 0.5f) / 32) / columns, &s, &c);
         const float r = sqrt((1.0f - z) * (1.0f + z));
-        bsdf_eval(&b, wo, (float3)(r * c, r * s, z), &pdf);
+        bsdf_eval(&b, wo, vec3_make(r * c, r * s, z), &pdf);
         sum += pdf;
     }
     out[i] = sum * (4.0f * MATH_PI) / (convert_float(rows * columns) * 2048.0f);
 }
 /* One sample with the random numbers of the case: (wi, pdf), (weight, event). */
-__kernel void once(__global float4* out, __global const Case* cases, __global const float* tables, uint count) {
+__kernel void once(__global Vec4* out, __global const Case* cases, __global const float* tables, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     Bsdf b;
-    const float3 wo = make(cases + i, &b, tables);
-    const BsdfSample a = bsdf_sample(&b, wo, cases[i].u_lobe, (float2)(cases[i].u, cases[i].v));
+    const Vec3 wo = make(cases + i, &b, tables);
+    const BsdfSample a = bsdf_sample(&b, wo, cases[i].u_lobe, vec2_make(cases[i].u, cases[i].v));
     float pdf;
-    const float3 f = bsdf_eval(&b, wo, math_normalize((float3)(cases[i].v - 0.5f, cases[i].u - 0.5f, 0.1f + cases[i].u_lobe)), &pdf);
-    out[3 * i] = (float4)(a.wi, a.pdf);
-    out[3 * i + 1] = (float4)(a.weight, convert_float(a.event));
-    out[3 * i + 2] = (float4)(f, pdf);
+    const Vec3 f = bsdf_eval(&b, wo, vec3_normalize(vec3_make(cases[i].v - 0.5f, cases[i].u - 0.5f, 0.1f + cases[i].u_lobe)), &pdf);
+    out[3 * i] = vec3_with(a.wi, a.pdf);
+    out[3 * i + 1] = vec3_with(a.weight, (float)a.event);
+    out[3 * i + 2] = vec3_with(f, pdf);
 }
 #if BSDF_TRANSMISSION
 /* n^2 f(o -> i) and f(i -> o) of a rough body, without the energy compensation of either side. */
-__kernel void reverse(__global float2* out, __global const Case* cases, __global const float* tables, uint count) {
+__kernel void reverse(__global Vec2* out, __global const Case* cases, __global const float* tables, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     Bsdf b;
-    const float3 wo = make(cases + i, &b, tables);
-    b.transmitter = (float3)(1.0f);
-    const float3 wi = bsdf_sample(&b, wo, 0.999f, (float2)(cases[i].u, cases[i].v)).wi;
+    const Vec3 wo = make(cases + i, &b, tables);
+    b.transmitter = vec3_splat(1.0f);
+    const Vec3 wi = bsdf_sample(&b, wo, 0.999f, vec2_make(cases[i].u, cases[i].v)).wi;
     float pdf;
     const float there = wi.z < 0.0f ? bsdf_eval(&b, wo, wi, &pdf).x : 0.0f;
     BsdfInput in;
-    in.base_colour = in.specular_colour = (float3)(1.0f);
+    in.base_colour = in.specular_colour = vec3_splat(1.0f);
     in.metallic = 0.0f, in.roughness = cases[i].roughness, in.ior = cases[i].ior, in.specular = 1.0f;
     in.transmission = 1.0f, in.solid = 1u, in.inside = 1u;
-    Bsdf back = bsdf_make(&in, -wi, tables);
-    back.transmitter = (float3)(1.0f);
-    const float here = bsdf_eval(&back, -wi, -wo, &pdf).x;
-    out[i] = wi.z < 0.0f ? (float2)(there * in.ior * in.ior / -wi.z, here / wo.z) : (float2)(0.0f);
+    Bsdf back = bsdf_make(&in, vec3_negate(wi), tables);
+    back.transmitter = vec3_splat(1.0f);
+    const float here = bsdf_eval(&back, vec3_negate(wi), vec3_negate(wo), &pdf).x;
+    out[i] = wi.z < 0.0f ? vec2_make(there * in.ior * in.ior / -wi.z, here / wo.z) : vec2_splat(0.0f);
 }
 #endif
 )";

@@ -15,14 +15,14 @@ std::vector<float> evaluate(Check& check, const std::string& expression,
 #include "shading/albedo.h"
 #include "shading/fresnel.h"
 #include "shading/ggx.h"
-TRIAD_FUNCTION float2 hashed(uint index) {
+TRIAD_FUNCTION Vec2 hashed(uint index) {
     const Sampler s = sampler_make(1u, index, 0u, 0u, 1u);
     return sampler_2d(&s, SAMPLER_SOBOL_SETS);
 }
-__kernel void evaluate(__global float* out, __global const float4* inputs, __global const float* tables, uint count) {
+__kernel void evaluate(__global float* out, __global const Vec4* inputs, __global const float* tables, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
-    const float4 v = inputs[i];
+    const Vec4 v = inputs[i];
     out[i] = )" + expression + R"(;
 }
 )";
@@ -118,7 +118,7 @@ void distribution_keeps_its_digits(Check& check) {
             inputs.push_back(
                 {float(t * z * std::cos(phi)), float(t * z * std::sin(phi)), float(z), float(alpha)});
         }
-        const auto result = evaluate(check, "ggx_distribution(v.xyz, v.w)", inputs);
+        const auto result = evaluate(check, "ggx_distribution(vec4_xyz(v), v.w)", inputs);
         double worst = 0;
         for (std::size_t i = 0; i < inputs.size(); ++i) {
             const auto& [x, y, z, a] = inputs[i];
@@ -137,8 +137,8 @@ void masking_is_reciprocal(Check& check) {
     for (auto& v : inputs) v = {unit(generator), unit(generator), unit(generator), 0};
     for (const auto& v : inputs) swapped.push_back({v[1], v[0], v[2], 0});
     const std::string f =
-        "ggx_masking(v.x, ggx_stretch((float3)(0.0f, sqrt(1.0f - v.x * v.x), v.x), v.z), v.y, "
-        "ggx_stretch((float3)(sqrt(1.0f - v.y * v.y), 0.0f, v.y), v.z)) / v.y";
+        "ggx_masking(v.x, ggx_stretch(vec3_make(0.0f, sqrt(1.0f - v.x * v.x), v.x), v.z), v.y, "
+        "ggx_stretch(vec3_make(sqrt(1.0f - v.y * v.y), 0.0f, v.y), v.z)) / v.y";
     const auto a = evaluate(check, f, inputs), b = evaluate(check, f, swapped);
     for (std::size_t i = 0; i < a.size(); ++i) check.near(a[i] / b[i], 1, 1e-5, "masking swapped");
 }
@@ -156,10 +156,10 @@ void visible_normals(Check& check) {
         inputs.push_back({float(std::pow(10, -4 * unit(generator))),
                           float(std::pow(10, -7 * unit(generator))), pick(1), pick(4)});
     }
-    const std::string wo = "(float3)(sqrt((1.0f - v.y) * (1.0f + v.y)), 0.0f, v.y)";
+    const std::string wo = "vec3_make(sqrt((1.0f - v.y) * (1.0f + v.y)), 0.0f, v.y)";
     for (const char* cap : {"1.0f", "ggx_cap(WO, v.x)"}) {
-        std::string f = "ggx_sample(WO, v.x, ggx_stretch(WO, v.x), CAP, v.zw)", h = f;
-        f = "math_dot(H, H) - 1.0f + (math_dot(H, WO) >= -1e-6f && H.z > 0.0f ? 0.0f : 1.0f)";
+        std::string f = "ggx_sample(WO, v.x, ggx_stretch(WO, v.x), CAP, vec2_make(v.z, v.w))", h = f;
+        f = "vec3_dot(H, H) - 1.0f + (vec3_dot(H, WO) >= -1e-6f && H.z > 0.0f ? 0.0f : 1.0f)";
         const auto replace = [](std::string& text, const std::string& from, const std::string& to) {
             for (std::size_t at; (at = text.find(from)) != std::string::npos;)
                 text.replace(at, from.size(), to);
@@ -177,13 +177,13 @@ void share_below_the_horizon(Check& check) {
     for (float mu : {1.0f, 0.5f, 0.1f}) {
         std::vector<std::array<float, 4>> inputs;
         for (int i = 0; i < n; ++i) inputs.push_back({float(i), mu, 0, 0});
-        const std::string wo = "(float3)(sqrt(1.0f - v.y * v.y), 0.0f, v.y)";
+        const std::string wo = "vec3_make(sqrt(1.0f - v.y * v.y), 0.0f, v.y)";
         const std::string u = "hashed(convert_uint(v.x))";
         const auto below = [&](const std::string& alpha, const std::string& cap) {
             double share = 0;
             for (float x :
                  evaluate(check,
-                          "math_reflect(" + wo + ", ggx_sample(" + wo + ", " + alpha + ", ggx_stretch(" + wo +
+                          "vec3_reflect(" + wo + ", ggx_sample(" + wo + ", " + alpha + ", ggx_stretch(" + wo +
                               ", " + alpha + "), " + cap + ", " + u + ")).z < 0.0f ? 1.0f : 0.0f",
                           inputs))
                 share += x / n;

@@ -13,18 +13,18 @@ namespace {
 
 using namespace picture_case;
 
-/// A kernel over the scene's arrays, with `body` computing float4 w from i, s (sampler of item i) and scene.
+/// A kernel over the scene's arrays, with `body` computing Vec4 w from i, s (sampler of item i) and scene.
 std::vector<std::array<float, 4>> draw(Check& check, const PackedScene& packed, const std::string& body,
                                        std::size_t count) {
     RenderSettings settings;
     const std::string source = R"(#include "shading/light.h"
-__kernel void draw(__global float4* out, SCENE_PARAMETERS, uint count) {
+__kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Sampler s = sampler_make(0u, i, 0u, 0u, 5u);
     const SamplerBlock u = sampler_block(&s, SAMPLER_SOBOL_BLOCKS);
-    float4 w;
+    Vec4 w;
     )" + body + R"(
     out[i] = w;
 }
@@ -85,10 +85,10 @@ void cells_by_their_density(Check& check) {
         const std::size_t count = check.count(1 << 20);
         const auto drawn = draw(check, packed, R"(
     const Environment e = scene.frame->environment;
-    float2 uv;
-    const float3 d = environment_sample(&scene, &e, (uint2)(u.x.s0, u.y.s0), &uv);
-    const float2 back = environment_uv(&e, d);
-    w = (float4)(uv, fabs(back.x - uv.x), fabs(back.y - uv.y));
+    Vec2 uv;
+    const Vec3 d = environment_sample(&scene, &e, u.set[0], &uv);
+    const Vec2 back = environment_uv(&e, d);
+    w = vec4_make(uv.x, uv.y, fabs(back.x - uv.x), fabs(back.y - uv.y));
 )",
                                 count);
         const std::vector<double> shares = shares_of(packed);
@@ -117,7 +117,7 @@ void column_of_every_share(Check& check) {
         const PackedScene packed = packed_under(map);
         const auto found = draw(check, packed, R"(
     const uint column = columns_descend(&scene, 0u, i << 16, scene.frame->environment.columns.levels);
-    w = (float4)((float)column, 0.0f, 0.0f, 0.0f);
+    w = vec4_make((float)column, 0.0f, 0.0f, 0.0f);
 )",
                                 1 << 16);
         const auto texel = [&](unsigned x) { return double(map.rgb[std::size_t(x % width) * 3]); };
@@ -143,8 +143,8 @@ void light_picks(Check& check) {
     const std::size_t count = check.count(1 << 20);
     const auto drawn = draw(check, packed, R"(
     float fraction, probability;
-    const uint k = cdf_find(&scene.frame->lights, scene.light_cdf, u.x.s2, &fraction, &probability);
-    w = (float4)((float)k, fabs(probability - scene.lights[k].pick), fraction, 0.0f);
+    const uint k = cdf_find(&scene.frame->lights, scene.light_cdf, u.set[2].x, &fraction, &probability);
+    w = vec4_make((float)k, fabs(probability - scene.lights[k].pick), fraction, 0.0f);
 )",
                             count);
     std::vector<double> counts(packed.lights.size()), expected(packed.lights.size());

@@ -11,21 +11,21 @@ namespace {
 
 const char* const source = R"(#include "common/spectrum.h"
 /* Of evenly spread numbers: what light of spectrum `which` adds to a path (or, by_light, to a photon), and at which wavelength. */
-__kernel void draw_light(__global float4* out, __global const Spectrum* spectrum, uint which, uint by_light, uint count) {
+__kernel void draw_light(__global Vec4* out, __global const Spectrum* spectrum, uint which, uint by_light, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const float u = (convert_float(i) + 0.5f) / convert_float(count);
-    float3 filter;
+    Vec3 filter;
     float nanometres;
     if (by_light != 0u) {
         float carried;
         nanometres = spectrum_draw_light(spectrum, which, u, &carried);
-        filter = spectrum_filter(spectrum, nanometres) * carried;
+        filter = vec3_scale(spectrum_filter(spectrum, nanometres), carried);
     } else {
         nanometres = spectrum_sample(spectrum, u, &filter);
-        filter *= spectrum_of_light(spectrum, which, nanometres);
+        filter = vec3_scale(filter, spectrum_of_light(spectrum, which, nanometres));
     }
-    out[i] = (float4)(filter, nanometres);
+    out[i] = vec3_with(filter, nanometres);
 }
 )";
 

@@ -13,29 +13,29 @@ using namespace picture_case;
 const char* const source = R"(#include "common/random.h"
 #include "shading/light.h"
 /* Samples seen from the origin: (direction, 1 / pdf), (pdf of that direction, weight, map coordinates). */
-__kernel void draw(__global float4* out, SCENE_PARAMETERS, uint count) {
+__kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Sampler s = sampler_make(3u, i, 0u, 0u, 11u);
     LightSample l;
-    l.uv = (float2)(0.0f);
+    l.uv = vec2_splat(0.0f);
     const uint pick = sampler_2d_bits(&s, SAMPLER_SOBOL_SETS).x;
-    const int lit = light_sample(&scene, (float3)(0.0f), pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
+    const int lit = light_sample(&scene, vec3_splat(0.0f), pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
                     light_complete(&scene, &l);
     float pdf = 0.0f;
     if (lit && l.distant) environment_radiance(&scene, l.direction, &pdf);
-    out[2 * i] = lit ? (float4)(l.direction, l.inverse_pdf) : (float4)(0.0f);
-    out[2 * i + 1] = lit ? (float4)(pdf, l.weight.y, l.uv) : (float4)(0.0f);
+    out[2 * i] = lit ? vec3_with(l.direction, l.inverse_pdf) : vec4_splat(0.0f);
+    out[2 * i + 1] = lit ? vec4_make(pdf, l.weight.y, l.uv.x, l.uv.y) : vec4_splat(0.0f);
 }
 /* The map's radiance from a direction. */
-__kernel void look(__global float4* out, SCENE_PARAMETERS, __global const float* directions, uint count) {
+__kernel void look(__global Vec4* out, SCENE_PARAMETERS, __global const float* directions, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     float pdf;
-    const float3 radiance = environment_radiance(&scene, vload3(i, directions), &pdf);
-    out[i] = (float4)(radiance, pdf);
+    const Vec3 radiance = environment_radiance(&scene, vec3_load(directions, i), &pdf);
+    out[i] = vec3_with(radiance, pdf);
 }
 )";
 

@@ -1,4 +1,5 @@
 // The kernels' own mathematics against double: the largest errors that kernels/common/math.h states.
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -193,23 +194,63 @@ void no_contraction(Check& check) {
     check.at_most(double(fused), 0, "results of ", a.size(), " that are fused");
 }
 
+/// Both signs of numbers of every size whose products are normal, and the odd ones.
+std::vector<float> all_kinds(std::size_t count, unsigned seed) {
+    auto x = uniform_bits(1e-12f, 1e12f, count, seed);
+    for (std::size_t i = 0; i < x.size(); i += 2) x[i] = -x[i];
+    x.insert(x.end(), {0.0f, -0.0f, 1.0f, -1.0f, 0.5f, -0.5f, 8388607.5f, -8388607.5f, 0.99999994f});
+    return x;
+}
+
+/// The bits of an expression over a and b are those of `reference`.
+void expect_bits(Check& check, const std::string& expression, const std::vector<float>& a,
+                 const std::vector<float>& b, const std::function<float(float, float)>& reference) {
+    const auto found = evaluate(check, expression, a, b);
+    for (std::size_t i = 0; i < a.size(); ++i)
+        check.equal(std::bit_cast<std::uint32_t>(found[i]),
+                    std::bit_cast<std::uint32_t>(reference(a[i], b[i])), expression, " of ", a[i], " and ",
+                    b[i]);
+}
+
+void builtins_are_exact(Check& check) {
+    const auto a = all_kinds(check.count(full / 4), 19), b = all_kinds(a.size() - 9, 20);
+    expect_bits(check, "fabs(a[i])", a, b, [](float x, float) { return std::fabs(x); });
+    expect_bits(check, "floor(a[i])", a, b, [](float x, float) { return std::floor(x); });
+    expect_bits(check, "ceil(a[i])", a, b, [](float x, float) { return std::ceil(x); });
+    expect_bits(check, "copysign(a[i], b[i])", a, b, [](float x, float y) { return std::copysign(x, y); });
+    // the rounding error of a product, which fma alone gives; in lanes too, as traversal asks for it
+    const auto error_of_product = [](float x, float y) { return std::fma(x, y, -(x * y)); };
+    expect_bits(check, "fma(a[i], b[i], -(a[i] * b[i]))", a, b, error_of_product);
+    expect_bits(check, "fma((float8)(a[i]), (float8)(b[i]), (float8)(-(a[i] * b[i]))).s5", a, b,
+                error_of_product);
+    expect_bits(check, "fma((float4)(a[i]), (float4)(b[i]), (float4)(-(a[i] * b[i]))).w", a, b,
+                error_of_product);
+    if (check.device.info().correctly_rounded)
+        expect_bits(check, "sqrt(fabs(a[i]))", a, b, [](float x, float) { return std::sqrt(std::fabs(x)); });
+    else
+        expect_ulps(check, 3, "sqrt(fabs(a[i]))", a, b,
+                    [&](std::size_t i) { return std::sqrt(std::abs(double(a[i]))); });
+}
+
 }  // namespace
 
 void add_maths(std::vector<CheckCase>& cases) {
     using enum CheckLevel;
-    cases.insert(cases.end(), {
-                                  {"M1", "sin and cos of turns, in ulp", quick, sin_and_cos_of_turns},
-                                  {"M2", "sin and cos of radians, in ulp", standard, sin_and_cos_of_radians},
-                                  {"M3", "exp and exp2, in ulp", quick, exponentials},
-                                  {"M4", "log and log2, in ulp", standard, logarithms},
-                                  {"M5", "pow, in ulp", standard, powers},
-                                  {"M6", "atan2 and acos, in ulp", quick, angles},
-                                  {"M7", "floor is exact", standard, floor_is_exact},
-                                  {"M8", "infinities and NaN are seen, and dropped by min and max", quick,
-                                   not_finite_is_seen},
-                                  {"M9", "differences of products, in ulp", quick, differences_of_products},
-                                  {"M10", "products and sums are not fused", quick, no_contraction},
-                              });
+    cases.insert(
+        cases.end(),
+        {
+            {"M1", "sin and cos of turns, in ulp", quick, sin_and_cos_of_turns},
+            {"M2", "sin and cos of radians, in ulp", standard, sin_and_cos_of_radians},
+            {"M3", "exp and exp2, in ulp", quick, exponentials},
+            {"M4", "log and log2, in ulp", standard, logarithms},
+            {"M5", "pow, in ulp", standard, powers},
+            {"M6", "atan2 and acos, in ulp", quick, angles},
+            {"M7", "floor is exact", standard, floor_is_exact},
+            {"M8", "infinities and NaN are seen, and dropped by min and max", quick, not_finite_is_seen},
+            {"M9", "differences of products, in ulp", quick, differences_of_products},
+            {"M10", "products and sums are not fused", quick, no_contraction},
+            {"M11", "fma, fabs, floor, ceil, copysign and sqrt to the bit", quick, builtins_are_exact},
+        });
 }
 
 }  // namespace triad

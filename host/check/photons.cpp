@@ -24,8 +24,8 @@ kernel void gather(global const Frame* frame, global const PhotonMap* map, globa
     Scene scene;
     scene.frame = frame, scene.photon_map = map, scene.photons = photons, scene.photon_ends = ends;
     PhotonQuery q;
-    q.position = vload3(i, points);
-    q.normal = (float3)(0.0f, 0.0f, 1.0f);
+    q.position = vec3_load(points, i);
+    q.normal = vec3_make(0.0f, 0.0f, 1.0f);
     q.most_edges = 0u;
     q.which = PHOTON_ANY;
     q.radius = map->radius;
@@ -33,8 +33,8 @@ kernel void gather(global const Frame* frame, global const PhotonMap* map, globa
     VertexBsdf v;
     v.frame = frame_make(q.normal);
     v.wo = q.normal;
-    v.bsdf.diffuse = (float3)(1.0f);
-    vstore3(photon_gather(&scene, &q, &v), i, from_grid);
+    v.bsdf.diffuse = vec3_splat(1.0f);
+    vec3_store(photon_gather(&scene, &q, &v), from_grid, i);
     long sums[3] = {0, 0, 0};
     const PhotonMap m = *map;
     for (uint k = 0u; k < count; ++k) photon_add(&scene, &m, &q, &v, landed + k, sums);
@@ -44,8 +44,8 @@ kernel void gather(global const Frame* frame, global const PhotonMap* map, globa
 kernel void land(global const float* places, uint count, global Photon* landed) {
     const uint i = get_global_id(0);
     if (i >= count) return;
-    const float3 from = math_normalize((float3)(0.3f, -0.2f, 1.0f));
-    landed[i] = photon_make(vload3(i, places), (float3)(1.0f, 0.5f, 0.25f), from, (float3)(0.0f, 0.0f, 1.0f), 3u,
+    const Vec3 from = vec3_normalize(vec3_make(0.3f, -0.2f, 1.0f));
+    landed[i] = photon_make(vec3_load(places, i), vec3_make(1.0f, 0.5f, 0.25f), from, vec3_make(0.0f, 0.0f, 1.0f), 3u,
                             1, 0.0f);
     if (i % 7u == 0u) landed[i].direction = 0u; /* landed nowhere */
 }

@@ -12,7 +12,7 @@ namespace triad {
 namespace {
 
 const char* const source = R"(#include "common/random.h"
-__kernel void sample(__global uint2* out, uint pixel, uint pixel_step, uint index, uint index_step, uint high,
+__kernel void sample(__global UVec2* out, uint pixel, uint pixel_step, uint index, uint index_step, uint high,
                      uint stream, uint seed, uint set, uint set_step, uint first_block, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
@@ -20,9 +20,9 @@ __kernel void sample(__global uint2* out, uint pixel, uint pixel_step, uint inde
     s.first_block = first_block;
     out[i] = sampler_2d_bits(&s, set + i * set_step);
 }
-__kernel void sobol(__global uint2* out, uint count) {
+__kernel void sobol(__global UVec2* out, uint count) {
     const uint i = get_global_id(0);
-    if (i < count) out[i] = (uint2)(random_reverse_bits(i), random_reverse_bits4(random_sobol1_reversed((uint4)(i))).x);
+    if (i < count) out[i] = uvec2_make(random_reverse_bits(i), RANDOM_FIRST_LANE(random_reverse_lanes(random_sobol1_reversed((RandomLanes)(i)))));
 }
 __kernel void to_float(__global float* out, uint first, uint count) {
     const uint i = get_global_id(0);

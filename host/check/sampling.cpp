@@ -29,15 +29,15 @@ std::vector<Vector> unit_vectors(std::size_t count) {
 
 void frames_are_orthonormal(Check& check) {
     const char* const source = R"(#include "common/frame.h"
-__kernel void frames(__global float4* out, __global const float4* normals, uint count) {
+__kernel void frames(__global Vec4* out, __global const Vec4* normals, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
-    const ShadingFrame f = frame_make(normals[i].xyz);
-    out[4 * i] = (float4)(f.x, 0.0f);
-    out[4 * i + 1] = (float4)(f.y, 0.0f);
-    out[4 * i + 2] = (float4)(f.z, 0.0f);
-    const float3 v = (float3)(0.36f, -0.48f, 0.8f);
-    out[4 * i + 3] = (float4)(frame_to_local(&f, frame_to_world(&f, v)) - v, 0.0f);
+    const ShadingFrame f = frame_make(vec4_xyz(normals[i]));
+    out[4 * i] = vec3_with(f.x, 0.0f);
+    out[4 * i + 1] = vec3_with(f.y, 0.0f);
+    out[4 * i + 2] = vec3_with(f.z, 0.0f);
+    const Vec3 v = vec3_make(0.36f, -0.48f, 0.8f);
+    out[4 * i + 3] = vec3_with(vec3_sub(frame_to_local(&f, frame_to_world(&f, v)), v), 0.0f);
 }
 )";
     const auto normals = unit_vectors(check.count(1 << 18));
@@ -55,21 +55,21 @@ __kernel void frames(__global float4* out, __global const float4* normals, uint 
     check.at_most(worst, 1e-6);
 }
 
-/// Draws points with `expression` of (float2 u) giving (cell u, cell v, error) and checks the counts of
+/// Draws points with `expression` of (Vec2 u) giving (cell u, cell v, error) and checks the counts of
 /// up to 32 x 32 cells against `share`, by default the same for each.
 void expect_distribution(
     Check& check, const std::string& expression,
     const std::function<double(int, int, int)>& share = [](int, int, int n) { return 1.0 / (n * n); }) {
     const std::string source = R"(#include "common/random.h"
 #include "common/sampling.h"
-__kernel void draw(__global float4* out, uint count) {
+__kernel void draw(__global Vec4* out, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const Sampler s = sampler_make(0u, i, 0u, 0u, 5u);
-    const float2 u = sampler_2d(&s, SAMPLER_SOBOL_SETS);
-    float3 w;
+    const Vec2 u = sampler_2d(&s, SAMPLER_SOBOL_SETS);
+    Vec3 w;
     )" + expression + R"(
-    out[i] = (float4)(w, 0.0f);
+    out[i] = vec3_with(w, 0.0f);
 }
 )";
     const std::size_t count = check.count(1 << 18);
@@ -87,30 +87,31 @@ __kernel void draw(__global float4* out, uint count) {
 }
 
 const std::string turn = "math_saturate(0.5f + math_atan2(w.y, w.x) / MATH_TWO_PI)";
-const std::string length_error = "math_dot(w, w) - 1.0f";
+const std::string length_error = "vec3_dot(w, w) - 1.0f";
 
 void disc_is_uniform(Check& check) {
     expect_distribution(check,
-                        "float2 d = sampling_disc(u); w = (float3)(d, 0.0f);"
-                        "w = (float3)(math_min(math_dot(w, w), 1.0f)," +
+                        "Vec2 d = sampling_disc(u); w = vec3_make(d.x, d.y, 0.0f);"
+                        "w = vec3_make(math_min(vec3_dot(w, w), 1.0f)," +
                             turn + ", 0.0f);");
 }
 
 void hemisphere_is_cosine_weighted(Check& check) {
     // the pdf is z / pi: z^2 is uniform
     expect_distribution(
-        check, "w = sampling_cosine(u); w = (float3)(w.z * w.z, " + turn + ", " + length_error + ");");
+        check, "w = sampling_cosine(u); w = vec3_make(w.z * w.z, " + turn + ", " + length_error + ");");
 }
 
 void triangle_is_uniform(Check& check) {
     // share of the cell (i, j) of the unit square that lies below the diagonal
-    expect_distribution(check, "w = (float3)(sampling_triangle(u), 0.0f);", [](int i, int j, int n) {
-        return (i + j < n - 1 ? 2.0 : i + j == n - 1 ? 1.0 : 0.0) / (n * n);
-    });
+    expect_distribution(check, "Vec2 d = sampling_triangle(u); w = vec3_make(d.x, d.y, 0.0f);",
+                        [](int i, int j, int n) {
+                            return (i + j < n - 1 ? 2.0 : i + j == n - 1 ? 1.0 : 0.0) / (n * n);
+                        });
 }
 
 void sphere_is_uniform(Check& check) {
-    expect_distribution(check, "w = sampling_sphere(u); w = (float3)(0.5f - 0.5f * w.z, " + turn + ", " +
+    expect_distribution(check, "w = sampling_sphere(u); w = vec3_make(0.5f - 0.5f * w.z, " + turn + ", " +
                                    length_error + ");");
 }
 
@@ -121,7 +122,7 @@ void cones_are_uniform(Check& check) {
             check,
             std::string("float m = sampling_one_minus_cos(") + sin2 +
                 "); w = sampling_cone(u, m); float t = sampling_one_minus_cos(w.x * w.x + w.y * w.y) / m;"
-                "w = (float3)(math_min(t, 1.0f), " +
+                "w = vec3_make(math_min(t, 1.0f), " +
                 turn + ", " + length_error + ");");
 }
 

@@ -16,12 +16,12 @@ const char* const source = R"(#include "common/frame.h"
 #include "common/spectrum.h"
 #include "shading/bsdf.h"
 /* (filter, wavelength) of evenly spread numbers. */
-__kernel void draw(__global float4* out, __global const Spectrum* spectrum, uint count) {
+__kernel void draw(__global Vec4* out, __global const Spectrum* spectrum, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
-    float3 filter;
+    Vec3 filter;
     const float nanometres = spectrum_sample(spectrum, (convert_float(i) + 0.5f) / convert_float(count), &filter);
-    out[i] = (float4)(filter, nanometres);
+    out[i] = vec3_with(filter, nanometres);
 }
 __kernel void look_up(__global float* out, __global const float* indices, __global const float* nanometres, uint glasses, uint count) {
     const uint i = get_global_id(0);
@@ -29,44 +29,44 @@ __kernel void look_up(__global float* out, __global const float* indices, __glob
     out[i] = spectrum_index(indices, i % glasses, nanometres[i]);
 }
 /* The direction after a surface of clear smooth glass, normal on the side that the ray comes from. */
-TRIAD_FUNCTION float3 cross_glass(float3 direction, float3 normal, float eta, int reflect, __global const float* tables) {
+TRIAD_FUNCTION Vec3 cross_glass(Vec3 direction, Vec3 normal, float eta, int reflect, __global const float* tables) {
     BsdfInput in;
-    in.base_colour = in.specular_colour = (float3)(1.0f);
+    in.base_colour = in.specular_colour = vec3_splat(1.0f);
     in.metallic = 0.0f, in.roughness = 0.0f, in.specular = 1.0f, in.transmission = 1.0f, in.solid = 1u;
     in.inside = eta < 1.0f;
     in.ior = eta < 1.0f ? 1.0f / eta : eta;
     const ShadingFrame frame = frame_make(normal);
-    const float3 wo = frame_to_local(&frame, -direction);
+    const Vec3 wo = frame_to_local(&frame, vec3_negate(direction));
     const Bsdf b = bsdf_make(&in, wo, tables);
-    const BsdfSample s = bsdf_sample(&b, wo, reflect ? 0.0f : 0x1.fffffep-1f, (float2)(0.5f));
-    return s.event == BSDF_NONE ? (float3)(NAN) : frame_to_world(&frame, s.wi);
+    const BsdfSample s = bsdf_sample(&b, wo, reflect ? 0.0f : 0x1.fffffep-1f, vec2_splat(0.5f));
+    return s.event == BSDF_NONE ? vec3_splat(NAN) : frame_to_world(&frame, s.wi);
 }
 /* A ray (direction, nanometres) through two planes with these outward normals, into glass 0 and out. */
-__kernel void cross_prism(__global float4* out, __global const float4* rays, __global const float4* normals, __global const float* indices,
+__kernel void cross_prism(__global Vec4* out, __global const Vec4* rays, __global const Vec4* normals, __global const float* indices,
                           __global const float* tables, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const float n = spectrum_index(indices, 0u, rays[i].w);
-    const float3 within = cross_glass(rays[i].xyz, normals[0].xyz, n, 0, tables);
-    out[i] = (float4)(cross_glass(within, -normals[1].xyz, 1.0f / n, 0, tables), n);
+    const Vec3 within = cross_glass(vec4_xyz(rays[i]), vec4_xyz(normals[0]), n, 0, tables);
+    out[i] = vec3_with(cross_glass(within, vec3_negate(vec4_xyz(normals[1])), 1.0f / n, 0, tables), n);
 }
 /* The far side of the unit sphere from p. */
-TRIAD_FUNCTION float3 across_sphere(float3 p, float3 d) { return math_normalize(p - d * (2.0f * math_dot(p, d))); }
+TRIAD_FUNCTION Vec3 across_sphere(Vec3 p, Vec3 d) { return vec3_normalize(vec3_add_scaled(p, d, -2.0f * vec3_dot(p, d))); }
 /* A ray along +x at height h (y) that crosses the unit sphere, after `reflections` within: direction, point of exit. */
-__kernel void cross_sphere(__global float4* out, __global const float2* rays, uint reflections, __global const float* indices,
+__kernel void cross_sphere(__global Vec4* out, __global const Vec2* rays, uint reflections, __global const float* indices,
                            __global const float* tables, uint count) {
     const uint i = get_global_id(0);
     if (i >= count) return;
     const float h = rays[i].x, n = spectrum_index(indices, 0u, rays[i].y);
-    float3 p = (float3)(-sqrt((1.0f - h) * (1.0f + h)), h, 0.0f);
-    float3 d = cross_glass((float3)(1.0f, 0.0f, 0.0f), p, n, 0, tables);
+    Vec3 p = vec3_make(-sqrt((1.0f - h) * (1.0f + h)), h, 0.0f);
+    Vec3 d = cross_glass(vec3_make(1.0f, 0.0f, 0.0f), p, n, 0, tables);
     p = across_sphere(p, d);
     for (uint k = 0; k < reflections; ++k) {
-        d = cross_glass(d, -p, 1.0f / n, 1, tables);
+        d = cross_glass(d, vec3_negate(p), 1.0f / n, 1, tables);
         p = across_sphere(p, d);
     }
-    out[2 * i] = (float4)(cross_glass(d, -p, 1.0f / n, 0, tables), 0.0f);
-    out[2 * i + 1] = (float4)(p, 0.0f);
+    out[2 * i] = vec3_with(cross_glass(d, vec3_negate(p), 1.0f / n, 0, tables), 0.0f);
+    out[2 * i + 1] = vec3_with(p, 0.0f);
 }
 )";
 

@@ -1,6 +1,7 @@
 // triad bench: measurements of speed and error. One file for each kind.
 #include "cli/bench_error.h"
 #include "cli/bench_features.h"
+#include "cli/bench_kernels.h"
 #include "cli/bench_subpixel.h"
 #include "cli/command_line.h"
 #include "cli/suite.h"
@@ -13,6 +14,7 @@ void add_bench(CLI::App& app, Exit& exit) {
     add_bench_suite(*bench, exit);
     add_bench_error(*bench, exit);
     add_bench_features(*bench, exit);
+    add_bench_kernels(*bench, exit);
     add_bench_subpixel(*bench, exit);
     for (CLI::App* kind : bench->get_subcommands(nullptr)) {
         add_common(*kind);

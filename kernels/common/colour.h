@@ -3,26 +3,47 @@
 #ifndef TRIAD_COMMON_COLOUR_H
 #define TRIAD_COMMON_COLOUR_H
 
-#include "common/math.h"
+#include "common/vector.h"
 
 #ifndef TRIAD_HERO
 #define TRIAD_HERO 0
 #endif
 
 #if TRIAD_HERO
-typedef float4 Colour;
+typedef Vec4 Colour;
+#define colour_splat vec4_splat
+#define colour_add vec4_add
+#define colour_sub vec4_sub
+#define colour_mul vec4_mul
+#define colour_div vec4_div
+#define colour_scale vec4_scale
+#define colour_abs vec4_abs
+#define colour_fma vec4_fma
+#define colour_fma_scale vec4_fma_scale
+#define colour_at_most vec4_at_most
+#define colour_at_least vec4_at_least
 TRIAD_FUNCTION float colour_average(Colour c) { return (c.x + c.y + c.z + c.w) * 0.25f; }
-TRIAD_FUNCTION float colour_max(Colour c) { return math_max(math_max(c.x, c.y), math_max(c.z, c.w)); }
-TRIAD_FUNCTION float colour_luminance(Colour c) { return colour_average(c); }
+TRIAD_FUNCTION float colour_largest(Colour c) { return math_max(math_max(c.x, c.y), math_max(c.z, c.w)); }
+#define colour_luminance colour_average
 #else
-typedef float3 Colour;
-TRIAD_FUNCTION float colour_average(Colour c) { return math_average(c); }
-TRIAD_FUNCTION float colour_max(Colour c) { return math_max3(c); }
-TRIAD_FUNCTION float colour_luminance(Colour c) { return math_luminance(c); }
+typedef Vec3 Colour;
+#define colour_splat vec3_splat
+#define colour_add vec3_add
+#define colour_sub vec3_sub
+#define colour_mul vec3_mul
+#define colour_div vec3_div
+#define colour_scale vec3_scale
+#define colour_abs vec3_abs
+#define colour_fma vec3_fma
+#define colour_fma_scale vec3_fma_scale
+#define colour_at_most vec3_at_most
+#define colour_at_least vec3_at_least
+#define colour_average vec3_average
+#define colour_largest vec3_largest
+#define colour_luminance vec3_luminance
 #endif
 
-/* Component by component: a where it is less (more), else b. */
-TRIAD_FUNCTION Colour colour_min(Colour a, Colour b) { return a < b ? a : b; }
-TRIAD_FUNCTION Colour colour_above(Colour a, Colour b) { return a > b ? a : b; }
+/* 1 - c. */
+TRIAD_FUNCTION Colour colour_complement(Colour c) { return colour_sub(colour_splat(1.0f), c); }
 
 #endif

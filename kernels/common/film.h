@@ -3,8 +3,7 @@
 #ifndef TRIAD_COMMON_FILM_H
 #define TRIAD_COMMON_FILM_H
 
-#include "common/language.h"
-#include "common/math.h"
+#include "common/vector.h"
 
 /* x in units of the quantum, rounded to nearest; sets *saturated when it would not leave room for other
  * samples. */
@@ -19,7 +18,7 @@ TRIAD_FUNCTION long film_fixed(float x, float quanta, uint* saturated) {
     return (long)(fabs(q) < 0x1.0p23f ? (q + shift) - shift : q);
 }
 
-TRIAD_FUNCTION int film_is_finite(float4 c) {
+TRIAD_FUNCTION int film_is_finite(Vec4 c) {
     return math_is_finite(c.x) && math_is_finite(c.y) && math_is_finite(c.z) && math_is_finite(c.w);
 }
 

@@ -6,12 +6,23 @@
  * written where it is meant. */
 #pragma OPENCL FP_CONTRACT OFF
 
+#include "common/builtins.h"
 #include "features.h"
 #include "types.h"
 
+/* 1: vector lanes lie within an item, which follows whole paths. 0: the items of a stage are the lanes, and
+ * everything on the way is scalar, inlined and without loops (docs/kernels.md). */
+#ifndef TRIAD_ITEM_LANES
+#define TRIAD_ITEM_LANES 1
+#endif
+
 /* Device functions. `static` keeps OpenCL C 1.2 and 3.0 from asking for an external definition of an inline
  * function. */
+#if TRIAD_ITEM_LANES
 #define TRIAD_FUNCTION static inline
+#else
+#define TRIAD_FUNCTION static inline __attribute__((always_inline))
+#endif
 /* Copied into every caller however large it is: callers pass constants that decide its shape, or the call
  * costs more than the copy. */
 #define TRIAD_FUNCTION_PER_CALL static inline __attribute__((always_inline))
@@ -19,9 +30,34 @@
  * for each. */
 #define TRIAD_FUNCTION_ONCE static __attribute__((noinline))
 
+/* A loop of `length` rounds, at most a constant `most`: where items are the lanes it is no loop, for only the
+ * innermost one is vectorised, and that is to be the one over items. */
+#if TRIAD_ITEM_LANES
+#define TRIAD_FOR(i, length, most) for (uint i = 0u; i < (length); ++i)
+#else
+#define TRIAD_FOR(i, length, most) _Pragma("unroll") for (uint i = 0u; i < (most); ++i) if (i < (length))
+#endif
+
+/* The items of a kernel, which are independent: a work-item takes TRIAD_RUN of them, one after the other.
+ * With more than one, the compiler makes them lanes, also where the driver would not (docs/kernels.md). No
+ * return, break or continue within. */
+#ifndef TRIAD_RUN
+#define TRIAD_RUN 1
+#endif
+#if TRIAD_RUN > 1
+#define TRIAD_ITEMS(i, count)                                                                 \
+    const size_t i##_first = get_global_id(0) * TRIAD_RUN,                                    \
+                 i##_end = i##_first + TRIAD_RUN < (count) ? i##_first + TRIAD_RUN : (count); \
+    _Pragma("clang loop vectorize(assume_safety)") for (size_t i = i##_first; i < i##_end; ++i)
+#else
+#define TRIAD_ITEMS(i, count)          \
+    const size_t i = get_global_id(0); \
+    if (i < (count))
+#endif
+
 /* Asks for the cache line of a global address that is read some hundred cycles later. Only where it is one
- * instruction and the language's prefetch() does nothing (PoCL 3.1 on x86). */
-#ifdef __x86_64__
+ * instruction and the language's prefetch() does nothing (PoCL 3.1 on x86), and keeps no vectoriser away. */
+#if defined(__x86_64__) && TRIAD_ITEM_LANES
 #define TRIAD_PREFETCH(address) __builtin_prefetch((const void*)(size_t)(address))
 #else
 #define TRIAD_PREFETCH(address) ((void)(address))

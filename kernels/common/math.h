@@ -29,6 +29,10 @@
 TRIAD_FUNCTION float math_min(float a, float b) { return a < b ? a : b; }
 TRIAD_FUNCTION float math_max(float a, float b) { return a > b ? a : b; }
 TRIAD_FUNCTION float math_saturate(float x) { return x > 0.0f ? (x < 1.0f ? x : 1.0f) : 0.0f; }
+TRIAD_FUNCTION float math_clamp(float x, float lo, float hi) { return x > lo ? (x < hi ? x : hi) : lo; }
+TRIAD_FUNCTION int math_clamp_int(int i, int lo, int hi) { return i > lo ? (i < hi ? i : hi) : lo; }
+TRIAD_FUNCTION int math_min_int(int a, int b) { return a < b ? a : b; }
+TRIAD_FUNCTION uint math_min_uint(uint a, uint b) { return a < b ? a : b; }
 TRIAD_FUNCTION float math_square(float x) { return x * x; }
 TRIAD_FUNCTION float math_mix(float a, float b, float t) { return fma(t, b - a, a); }
 
@@ -40,10 +44,10 @@ TRIAD_FUNCTION uint math_is_finite(float x) { return (as_uint(x) & 0x7f800000u) 
 
 /* |x| < 2^31. */
 TRIAD_FUNCTION int math_floor_int(float x) {
-    int i = convert_int(x);
-    return i - (convert_float(i) > x);
+    int i = (int)x;
+    return i - ((float)i > x);
 }
-TRIAD_FUNCTION float math_floor(float x) { return convert_float(math_floor_int(x)); }
+TRIAD_FUNCTION float math_floor(float x) { return (float)math_floor_int(x); }
 /* Nearest integer, halves upward; |x| < 2^22. */
 TRIAD_FUNCTION int math_round_int(float x) { return math_floor_int(x + 0.5f); }
 
@@ -56,7 +60,7 @@ TRIAD_FUNCTION float math_difference_of_products(float a, float b, float c, floa
 /* sin and cos of 2 pi turns; |turns| < 2^22. */
 TRIAD_FUNCTION void math_sincos_turns(float turns, float* s, float* c) {
     int k = math_round_int(4.0f * turns);
-    float r = fma(convert_float(k), -0.25f, turns); /* exact, in [-1/8, 1/8] */
+    float r = fma((float)k, -0.25f, turns); /* exact, in [-1/8, 1/8] */
     float q = r * r;
     float p =
         fma(fma(fma(4.158954239e+01f, q, -7.670128632e+01f), q, 8.160523224e+01f), q, -4.134170151e+01f);
@@ -91,7 +95,7 @@ TRIAD_FUNCTION void math_sincos_octant(float x, float* s, float* c) {
 /* sin and cos of x in radians; |x| <= 1024 (Cody and Waite's reduction, pi / 2 in two parts). */
 TRIAD_FUNCTION void math_sincos(float x, float* s, float* c) {
     int k = math_round_int(x * 6.366197467e-01f);
-    float n = convert_float(k);
+    float n = (float)k;
     float r = fma(n, -1.570796371f, x);
     r = fma(n, 4.371138829e-08f, r);
     float sine, cosine;
@@ -128,14 +132,14 @@ TRIAD_FUNCTION float math_exp2(float x) {
     if (!(x >= -126.0f)) return x != x ? x : 0.0f;
     if (x >= 128.0f) return INFINITY;
     int n = math_round_int(x);
-    return math_exp2_parts(n, x - convert_float(n));
+    return math_exp2_parts(n, x - (float)n);
 }
 TRIAD_FUNCTION float math_exp(float x) {
     if (!(x >= -87.336544f)) return x != x ? x : 0.0f;
     if (x > 88.722839f) return INFINITY;
     int n = math_round_int(x * 1.442695022f);
-    float r = fma(convert_float(n), -6.931471825e-01f, x); /* exact: ln 2 in two parts */
-    r = fma(convert_float(n), 1.904654212e-09f, r);
+    float r = fma((float)n, -6.931471825e-01f, x); /* exact: ln 2 in two parts */
+    r = fma((float)n, 1.904654212e-09f, r);
     return math_exp2_parts(n, fma(r, 1.442695022f, r * 1.925963034e-08f));
 }
 
@@ -162,7 +166,7 @@ TRIAD_FUNCTION float math_log(float x) {
     int e;
     float tail;
     float f = math_log_parts(x, &e, &tail);
-    float n = convert_float(e);
+    float n = (float)e;
     return fma(n, 6.931471825e-01f, f + fma(n, -1.904654212e-09f, tail));
 }
 /* log2(1 + f) = result + *lo, not rounded to one float, from f and the tail of math_log_parts. */
@@ -179,7 +183,7 @@ TRIAD_FUNCTION float math_log2(float x) {
     float tail, lo;
     float f = math_log_parts(x, &e, &tail);
     float hi = math_log2_fraction(f, tail, &lo);
-    return (convert_float(e) + hi) + lo;
+    return ((float)e + hi) + lo;
 }
 /* x^y for x >= 0; 0^0 = 1. */
 TRIAD_FUNCTION float math_pow(float x, float y) {
@@ -190,7 +194,7 @@ TRIAD_FUNCTION float math_pow(float x, float y) {
     float f = math_log_parts(x, &e, &tail);
     float hi = math_log2_fraction(f, tail, &lo);
     /* y log2 x = whole + rest: the product with the exponent and the high part keep their rounding errors */
-    float a = y * convert_float(e), a_lo = fma(y, convert_float(e), -a);
+    float a = y * (float)e, a_lo = fma(y, (float)e, -a);
     float b = y * hi, b_lo = fma(y, lo, fma(y, hi, -b));
     if (a + b >= 129.0f) return INFINITY;
     if (a + b < -127.0f) return 0.0f;
@@ -198,7 +202,7 @@ TRIAD_FUNCTION float math_pow(float x, float y) {
     float rest = (a - n_a) + b;
     float n_b = math_floor(rest + 0.5f);
     rest = ((b - n_b) + (a - n_a)) + (a_lo + b_lo);
-    int n = convert_int(n_a + n_b);
+    int n = (int)(n_a + n_b);
     if (n > 128) return INFINITY;
     return n < -126 ? 0.0f : math_exp2_parts(n, rest);
 }
@@ -237,25 +241,5 @@ TRIAD_FUNCTION float math_acos(float x) {
     if (outer) return x > 0.0f ? 2.0f * arc_sine : 3.141592741f - (2.0f * arc_sine + 8.742277657e-08f);
     return 1.570796371f - (x > 0.0f ? arc_sine + 4.371138829e-08f : 4.371138829e-08f - arc_sine);
 }
-
-/* ---- Vectors: written out, because the builtins' bounds are absolute and loose
- * -------------------------------- */
-
-TRIAD_FUNCTION float math_dot(float3 a, float3 b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
-/* Each component to 1.5 ulp. */
-TRIAD_FUNCTION float3 math_cross(float3 a, float3 b) {
-    return (float3)(math_difference_of_products(a.y, b.z, a.z, b.y),
-                    math_difference_of_products(a.z, b.x, a.x, b.z),
-                    math_difference_of_products(a.x, b.y, a.y, b.x));
-}
-TRIAD_FUNCTION float math_length(float3 v) { return sqrt(math_dot(v, v)); }
-/* v is neither zero nor so long or short that its square leaves the normal range (1e-18 to 1e18 is safe). */
-TRIAD_FUNCTION float3 math_normalize(float3 v) { return v * (1.0f / sqrt(math_dot(v, v))); }
-/* The direction w mirrored about the unit normal n: both point away from the surface. */
-TRIAD_FUNCTION float3 math_reflect(float3 w, float3 n) { return fma((float3)(2.0f * math_dot(w, n)), n, -w); }
-TRIAD_FUNCTION float math_average(float3 v) { return (v.x + v.y + v.z) * (1.0f / 3.0f); }
-TRIAD_FUNCTION float math_max3(float3 v) { return math_max(v.x, math_max(v.y, v.z)); }
-/* Rec.709 luminance. */
-TRIAD_FUNCTION float math_luminance(float3 v) { return fma(v.x, 0.2126f, fma(v.y, 0.7152f, v.z * 0.0722f)); }
 
 #endif

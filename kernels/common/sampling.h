@@ -3,41 +3,41 @@
 #ifndef TRIAD_COMMON_SAMPLING_H
 #define TRIAD_COMMON_SAMPLING_H
 
-#include "common/math.h"
+#include "common/vector.h"
 
 /* Unit disc, uniform: pdf 1 / pi (Shirley and Chiu 1997). */
-TRIAD_FUNCTION float2 sampling_disc(float2 u) {
+TRIAD_FUNCTION Vec2 sampling_disc(Vec2 u) {
     float a = fma(2.0f, u.x, -1.0f), b = fma(2.0f, u.y, -1.0f);
-    if (a == 0.0f && b == 0.0f) return (float2)(0.0f, 0.0f);
+    if (a == 0.0f && b == 0.0f) return vec2_make(0.0f, 0.0f);
     uint steep = fabs(b) > fabs(a);
     float r = steep ? b : a;
     float s, c;
     math_sincos_octant(0.785398163f * (steep ? a / b : b / a), &s, &c);
-    return steep ? (float2)(r * s, r * c) : (float2)(r * c, r * s);
+    return steep ? vec2_make(r * s, r * c) : vec2_make(r * c, r * s);
 }
 
 /* Hemisphere about +z with pdf z / pi. z > 0. */
-TRIAD_FUNCTION float3 sampling_cosine(float2 u) {
-    float2 d = sampling_disc(u);
+TRIAD_FUNCTION Vec3 sampling_cosine(Vec2 u) {
+    Vec2 d = sampling_disc(u);
     float z2 = 1.0f - fma(d.x, d.x, d.y * d.y);
-    return (float3)(d.x, d.y, sqrt(math_max(z2, 1e-14f)));
+    return vec3_make(d.x, d.y, sqrt(math_max(z2, 1e-14f)));
 }
 TRIAD_FUNCTION float sampling_cosine_pdf(float z) { return math_max(z, 0.0f) * MATH_INV_PI; }
 
 /* Barycentric weights of corners 1 and 2 of a triangle, uniform: pdf 1 / area (Heitz 2019, "A Low-Distortion
  * Map Between Triangle and Square"). */
-TRIAD_FUNCTION float2 sampling_triangle(float2 u) {
-    return u.y > u.x ? (float2)(u.x * 0.5f, fma(-0.5f, u.x, u.y))
-                     : (float2)(fma(-0.5f, u.y, u.x), u.y * 0.5f);
+TRIAD_FUNCTION Vec2 sampling_triangle(Vec2 u) {
+    return u.y > u.x ? vec2_make(u.x * 0.5f, fma(-0.5f, u.x, u.y))
+                     : vec2_make(fma(-0.5f, u.y, u.x), u.y * 0.5f);
 }
 
 /* Whole sphere: pdf 1 / (4 pi). */
-TRIAD_FUNCTION float3 sampling_sphere(float2 u) {
+TRIAD_FUNCTION Vec3 sampling_sphere(Vec2 u) {
     float t = 2.0f * u.x; /* 1 - z, in [0, 2) */
     float r = sqrt(t * (2.0f - t));
     float s, c;
     math_sincos_turns(u.y, &s, &c);
-    return (float3)(r * c, r * s, 1.0f - t);
+    return vec3_make(r * c, r * s, 1.0f - t);
 }
 
 /* 1 - cos of the half angle whose squared sine is sin2, without the cancellation that loses small cones; at
@@ -45,12 +45,12 @@ TRIAD_FUNCTION float3 sampling_sphere(float2 u) {
 TRIAD_FUNCTION float sampling_one_minus_cos(float sin2) { return sin2 / (1.0f + math_sqrt(1.0f - sin2)); }
 
 /* Cone about +z: pdf 1 / (2 pi one_minus_cos). */
-TRIAD_FUNCTION float3 sampling_cone(float2 u, float one_minus_cos) {
+TRIAD_FUNCTION Vec3 sampling_cone(Vec2 u, float one_minus_cos) {
     float t = u.x * one_minus_cos;
     float r = sqrt(t * (2.0f - t));
     float s, c;
     math_sincos_turns(u.y, &s, &c);
-    return (float3)(r * c, r * s, 1.0f - t);
+    return vec3_make(r * c, r * s, 1.0f - t);
 }
 TRIAD_FUNCTION float sampling_cone_pdf(float one_minus_cos) { return 0.5f * MATH_INV_PI / one_minus_cos; }
 

@@ -6,13 +6,13 @@
 #include "path/start.h"
 
 /* Radiance in R, G, B, and alpha, as the film counts them. */
-TRIAD_FUNCTION float4 path_value(const PathState* path, SampleWeight weight) {
-    return sample_weighted((float4)(path_rgb(&path->colours, path->radiance), path->alpha), weight);
+TRIAD_FUNCTION Vec4 path_value(const PathState* path, SampleWeight weight) {
+    return sample_weighted(vec3_with(path_rgb(&path->colours, path->radiance), path->alpha), weight);
 }
 
 /* sums, half_sums: of the pixel that the sample is of. */
 TRIAD_FUNCTION void film_add(const Frame* frame, global long* sums, global long* half_sums,
-                             const SampleName* name, float4 value, Tally* tally) {
+                             const SampleName* name, Vec4 value, Tally* tally) {
     if (!film_is_finite(value)) {
         ++tally->not_finite;
         return;

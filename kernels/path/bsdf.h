@@ -22,30 +22,29 @@ TRIAD_FUNCTION VertexBsdf path_bsdf(const Scene* scene, PathState* path, Vertex*
 
 #if PATH_EACH
 /* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
-TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, float4 wavelengths, const Vertex* vertex,
-                                          float3 wi, float4* densities) {
-    float nanometres[4], values[4], value[4], density[4];
-    vstore4(wavelengths, 0, nanometres);
+TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, Vec4 wavelengths, const Vertex* vertex, Vec3 wi,
+                                          Vec4* densities) {
+    const float nanometres[4] = {wavelengths.x, wavelengths.y, wavelengths.z, wavelengths.w};
+    float value[4], density[4];
     for (uint i = 0u; i < 4u; ++i) {
         const VertexBsdf v = vertex_bsdf(scene, &vertex->surface, vertex->wo, vertex->ng, vertex->back,
                                          vertex->around.here, vertex->around.beyond, nanometres[i]);
         density[i] = 0.0f;
         const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
-        vstore4(f, 0, values);
-        value[i] = values[i];
+        value[i] = i == 0u ? f.x : i == 1u ? f.y : i == 2u ? f.z : f.w;
     }
-    *densities = vload4(0, density);
-    return vload4(0, value);
+    *densities = VEC4_OF(density);
+    return VEC4_OF(value);
 }
 #endif
 
 /* f |cos wi| at the path's wavelengths, and the density with which path_scatter() draws wi; delta lobes
  * excluded. wi: in the frame of v. */
 TRIAD_FUNCTION Colour path_eval(const Scene* scene, const PathState* path, const Vertex* vertex,
-                                const VertexBsdf* v, float3 wi, float* density) {
+                                const VertexBsdf* v, Vec3 wi, float* density) {
 #if PATH_EACH
     if (vertex->each) {
-        float4 densities;
+        Vec4 densities;
         const Colour f = path_eval_each(scene, path_wavelengths(&path->colours), vertex, wi, &densities);
         *density = path_mean_density(&path->colours, densities);
         return f;

@@ -14,7 +14,7 @@ typedef struct PendingLight {
     /* of a map, which is looked up when the ray has got through */
     float inverse_pdf; /* of light sampling, without the map's own density; 0: no map */
     float bsdf_pdf;    /* of the path's direction */
-    float2 uv;
+    Vec2 uv;
     uint flags; /* of its Light */
 #endif
 } PendingLight;
@@ -22,8 +22,7 @@ typedef struct PendingLight {
 /* Before the ray of the edge is traced: what will be read to choose a direction in a map is asked for. */
 TRIAD_FUNCTION void connect_prefetch(const Scene* scene, const SamplerBlock* u) {
 #if TRIAD_ENVIRONMENT_MAP
-    if (scene->frame->environment.light != TRIAD_NONE)
-        environment_prefetch_columns(scene, (uint2)(u->x.s3, u->y.s3));
+    if (scene->frame->environment.light != TRIAD_NONE) environment_prefetch_columns(scene, u->set[3]);
 #else
     (void)scene, (void)u;
 #endif
@@ -47,14 +46,14 @@ TRIAD_FUNCTION int connect_is_alpha(const Scene* scene, const PathState* path, c
 TRIAD_FUNCTION Colour connect_transmittance(const Scene* scene, const PathState* path, const Vertex* vertex,
                                             const LightSample* light, float side) {
 #if TRIAD_TRANSMISSION
-    const uint body = side < 0.0f ? vertex->around.beyond.s0 : vertex->around.here.s0;
+    const uint body = side < 0.0f ? vertex->around.beyond.x : vertex->around.here.x;
     if (body != TRIAD_NONE && !light->distant)
         return path_transmittance(&path->colours, scene->materials + body,
-                                  math_length(light->target - vertex->surface.position));
+                                  vec3_length(vec3_sub(light->target, vertex->surface.position)));
 #else
     (void)scene, (void)path, (void)vertex, (void)light, (void)side;
 #endif
-    return (Colour)(1.0f);
+    return colour_splat(1.0f);
 }
 
 /* 0: no light can be seen from here. */
@@ -63,25 +62,26 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
     const Surface* s = &vertex->surface;
     LightSample light;
     if (scene->frame->light_count == 0u || path_ends_in_map(scene, path) || !bsdf_has_smooth(&v->bsdf) ||
-        !light_sample(scene, s->position, u->x.s2, (uint2)(u->x.s3, u->y.s3), &light))
+        !light_sample(scene, s->position, u->set[2].x, u->set[3], &light))
         return 0;
-    const float side = math_dot(light.direction, vertex->ng);
-    const float3 wi = frame_to_local(&v->frame, light.direction);
+    const float side = vec3_dot(light.direction, vertex->ng);
+    const Vec3 wi = frame_to_local(&v->frame, light.direction);
     /* the shading normal must not move light through the surface */
     if (!(side * wi.z > 0.0f) || connect_is_alpha(scene, path, &light, side)) return 0;
 
     float bsdf_pdf;
-    const Colour direct = path->throughput * path_eval(scene, path, vertex, v, wi, &bsdf_pdf) *
-                          connect_transmittance(scene, path, vertex, &light, side);
+    const Colour reflected = colour_mul(path->throughput, path_eval(scene, path, vertex, v, wi, &bsdf_pdf));
+    const Colour direct = colour_mul(reflected, connect_transmittance(scene, path, vertex, &light, side));
     const Colour radiance = path_light(scene, &path->colours, light.flags, light.weight);
     /* the colour of a light with a spectrum is signed */
-    if (!(colour_max(fabs(direct * radiance)) > 0.0f)) return 0;
+    if (!(colour_largest(colour_abs(colour_mul(direct, radiance))) > 0.0f)) return 0;
     if (path_map_use(scene) == PHOTON_MAP_VISUALISED) bsdf_pdf = 0.0f; /* no path goes there */
 
-    const float3 away = side > 0.0f ? vertex->ng : -vertex->ng;
+    const Vec3 away = side > 0.0f ? vertex->ng : vec3_negate(vertex->ng);
     pending->ray = light.distant ? vertex_spawn(s, away, &vertex->hit, light.direction)
                                  : vertex_spawn_to(s, away, &vertex->hit, light.target);
-    pending->worth = direct * (radiance * power_heuristic(bsdf_pdf * light.inverse_pdf));
+    pending->worth =
+        colour_mul(direct, colour_scale(radiance, power_heuristic(bsdf_pdf * light.inverse_pdf)));
 #if TRIAD_ENVIRONMENT_MAP
     pending->inverse_pdf = 0.0f;
     if (light.distant && light.inverse_pdf > 0.0f) {
@@ -106,13 +106,14 @@ TRIAD_FUNCTION void path_arrive(const Scene* scene, PathState* path, const Pendi
         light.inverse_pdf = pending->inverse_pdf;
         light.uv = pending->uv;
         if (!light_complete(scene, &light)) return;
-        direct *= path_light(scene, &path->colours, pending->flags, light.weight) *
-                  power_heuristic(pending->bsdf_pdf * light.inverse_pdf);
+        const Colour radiance = path_light(scene, &path->colours, pending->flags, light.weight);
+        const float weight = power_heuristic(pending->bsdf_pdf * light.inverse_pdf);
+        direct = colour_mul(direct, colour_scale(radiance, weight));
     }
 #else
     (void)scene;
 #endif
-    path->radiance += direct;
+    path->radiance = colour_add(path->radiance, direct);
     record_direct(tally, scene, path, direct);
 }
 

@@ -7,14 +7,14 @@
 #include "shading/light.h"
 
 TRIAD_FUNCTION void path_finds(PathState* path, Colour found, Tally* tally) {
-    path->radiance += found;
+    path->radiance = colour_add(path->radiance, found);
     record_found(tally, path, found);
 }
 
 /* The path leaves the scene: it finds the environment, or nothing at all, which is alpha. */
 TRIAD_FUNCTION void path_miss(const Scene* scene, PathState* path, const Hit* hit, Tally* tally) {
     global const Frame* frame = scene->frame;
-    const float3 direction = path_direction(path);
+    const Vec3 direction = path_direction(path);
     (void)hit;
     record_vertex(tally, path, direction, hit, TRIAD_NONE);
     record_end(tally, PATH_LEFT_SCENE);
@@ -27,7 +27,7 @@ TRIAD_FUNCTION void path_miss(const Scene* scene, PathState* path, const Hit* hi
     const Colour sky = path_colour(&path->colours, environment_radiance(scene, direction, &light_pdf));
     float weight = path->pdf > 0.0f ? power_heuristic(light_pdf / path->pdf) : 1.0f;
     if (frame->environment.photons && path_leaves_to_photons(scene, path)) weight = 0.0f;
-    path_finds(path, path->throughput * sky * weight, tally);
+    path_finds(path, colour_scale(colour_mul(path->throughput, sky), weight), tally);
 }
 
 /* An unlit surface shows its colour to the camera, directly or in mirrors, and is black to all else; 1: it is
@@ -36,10 +36,8 @@ TRIAD_FUNCTION int path_unlit(const Scene* scene, PathState* path, const Vertex*
 #if TRIAD_UNLIT
     const Surface* s = &vertex->surface;
     if (!(scene->materials[s->material].flags & MATERIAL_UNLIT)) return 0;
-    path_finds(path,
-               path->traits & PATH_SPECULAR ? path->throughput * path_colour(&path->colours, s->base_colour)
-                                            : (Colour)(0.0f),
-               tally);
+    const Colour shown = colour_mul(path->throughput, path_colour(&path->colours, s->base_colour));
+    path_finds(path, path->traits & PATH_SPECULAR ? shown : colour_splat(0.0f), tally);
     record_end(tally, PATH_UNLIT);
     return 1;
 #else
@@ -65,11 +63,11 @@ TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Ver
         const Light light = *found;
         weight = power_heuristic(
             1.0f / (path->pdf * light_triangle_inverse_pdf(&light, 1.0f / (vertex->hit.t * vertex->hit.t),
-                                                           math_dot(vertex->ng, vertex->wo))));
+                                                           vec3_dot(vertex->ng, vertex->wo))));
     }
     const Colour radiance =
         path_light(scene, &path->colours, found->flags, surface_emission(scene, material, s->uv0, s->uv1));
-    path_finds(path, path->throughput * radiance * weight, tally);
+    path_finds(path, colour_scale(colour_mul(path->throughput, radiance), weight), tally);
 #else
     (void)scene, (void)path, (void)vertex, (void)tally;
 #endif

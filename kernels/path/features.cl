@@ -17,9 +17,9 @@ kernel void trace_features(SCENE_PARAMETERS PARAMETERS(TRACE_FEATURES_LIST)) {
     if (!sample_pixel(local_frame.crop, first_pixel + (uint)item, &x, &y)) return;
     const size_t pixel = (size_t)y * local_frame.crop[2] + x;
     const Camera camera = local_frame.camera;
-    const float3 eye = (float3)(camera.origin[0], camera.origin[1], camera.origin[2]);
-    const float3 forward = (float3)(camera.forward[0], camera.forward[1], camera.forward[2]);
-    float3 albedo_sum = (float3)(0.0f), normal_sum = (float3)(0.0f), position_sum = (float3)(0.0f);
+    const Vec3 eye = VEC3_OF(camera.origin);
+    const Vec3 forward = VEC3_OF(camera.forward);
+    Vec3 albedo_sum = vec3_splat(0.0f), normal_sum = vec3_splat(0.0f), position_sum = vec3_splat(0.0f);
     float depth_sum = 0.0f;
     uint hits = 0u;
     Tally tally = tally_start();
@@ -29,15 +29,16 @@ kernel void trace_features(SCENE_PARAMETERS PARAMETERS(TRACE_FEATURES_LIST)) {
         const Hit hit = path_closest(&scene, &path, &tally);
         if (hit.primitive == TRIAD_NONE) continue;
         const Vertex v = path_surface(&scene, &path, &hit, &tally);
-        albedo_sum += v.surface.base_colour;
-        normal_sum += v.back ? -v.surface.shading_normal : v.surface.shading_normal;
-        position_sum += v.surface.position;
-        depth_sum += math_dot(v.surface.position - eye, forward);
+        albedo_sum = vec3_add(albedo_sum, v.surface.base_colour);
+        const Vec3 normal = v.surface.shading_normal;
+        normal_sum = vec3_add(normal_sum, v.back ? vec3_negate(normal) : normal);
+        position_sum = vec3_add(position_sum, v.surface.position);
+        depth_sum += vec3_dot(vec3_sub(v.surface.position, eye), forward);
         ++hits;
     }
     const float scale = hits ? 1.0f / (float)hits : 0.0f;
-    vstore3(albedo_sum * (1.0f / (float)sample_count), pixel, albedos);
-    vstore3(normal_sum * scale, pixel, normal_means);
-    vstore3(position_sum * scale, pixel, position_means);
+    vec3_store(vec3_scale(albedo_sum, 1.0f / (float)sample_count), albedos, pixel);
+    vec3_store(vec3_scale(normal_sum, scale), normal_means, pixel);
+    vec3_store(vec3_scale(position_sum, scale), position_means, pixel);
     depths[pixel] = depth_sum * scale;
 }

@@ -49,7 +49,7 @@ TRIAD_FUNCTION void path_gather(const Scene* scene, PathState* path, const Verte
     q.radius = specular && use != PHOTON_MAP_VISUALISED ? scene->photon_map->sharp_radius
                                                         : scene->photon_map->radius;
     q.wavelength = path_wavelength(&path->colours);
-    path->radiance += path->throughput * photon_gather(scene, &q, v);
+    path->radiance = colour_add(path->radiance, colour_mul(path->throughput, photon_gather(scene, &q, v)));
 #else
     (void)scene, (void)path, (void)vertex, (void)v;
 #endif

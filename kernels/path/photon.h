@@ -16,10 +16,10 @@
 typedef struct PhotonState {
     PathState path; /* its throughput is of flux: radiance over what bodies scale it by */
     PhotonSource source;
-    float length;       /* of the way, for the range of punctual lights */
-    float3 from;        /* where the edge starts, before any offset */
-    float3 filter;      /* what the photon adds to the film, of its power: that of its wavelength */
-    float3 per_density; /* nm: of the wavelength; in gathering, the filter is the path's */
+    float length;     /* of the way, for the range of punctual lights */
+    Vec3 from;        /* where the edge starts, before any offset */
+    Vec3 filter;      /* what the photon adds to the film, of its power: that of its wavelength */
+    Vec3 per_density; /* nm: of the wavelength; in gathering, the filter is the path's */
     uint ray_name;
     Photon kept; /* one of the places where it landed, all equally likely */
     uint landings;
@@ -33,8 +33,8 @@ TRIAD_FUNCTION void photon_draw_wavelength(const Scene* scene, PhotonState* phot
         spectrum_draw_light(scene->spectrum, photon->source.spectrum,
                             sampler_2d(&photon->path.sampler, PATH_WAVELENGTH_SET).x, &carried);
     photon->path.colours.wavelength = wavelength;
-    photon->per_density = (float3)(carried);
-    photon->filter = spectrum_filter(scene->spectrum, wavelength) * carried;
+    photon->per_density = vec3_splat(carried);
+    photon->filter = vec3_scale(spectrum_filter(scene->spectrum, wavelength), carried);
 #else
     (void)scene, (void)photon;
 #endif
@@ -53,12 +53,12 @@ TRIAD_FUNCTION PhotonState photon_start(const Scene* scene, global const PhotonF
     const Ray ray = photon.source.ray;
     photon.path = path_state(&sampler, ray, path_colour_white());
     photon.length = 0.0f;
-    photon.from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]);
+    photon.from = VEC3_OF(ray.origin);
     photon.ray_name = coverage_ray(&sampler, 0u);
     photon.kept.direction = 0u;
     photon.landings = 0u;
 #if TRIAD_DISPERSION
-    photon.filter = photon.per_density = (float3)(1.0f);
+    photon.filter = photon.per_density = vec3_splat(1.0f);
     /* light with a spectrum of its own has a wavelength from its start */
     if (frame->wavelength_from_camera || photon.source.spectrum != 0u) photon_draw_wavelength(scene, &photon);
 #else
@@ -80,33 +80,33 @@ TRIAD_FUNCTION void photon_disperse(const Scene* scene, PhotonState* photon, con
 
 /* 0: the surface gets none of it: it is unlit, or out of the light's range. */
 TRIAD_FUNCTION int photon_arrives(const Scene* scene, PhotonState* photon, const Vertex* vertex) {
-    photon->length += math_length(vertex->surface.position - photon->from);
+    photon->length += vec3_length(vec3_sub(vertex->surface.position, photon->from));
     photon->from = vertex->surface.position;
     return !(scene->materials[vertex->surface.material].flags & MATERIAL_UNLIT) &&
            !(photon->source.range > 0.0f && photon->length >= photon->source.range);
 }
 
 /* What it brings there. share: one over the photons of the sample. */
-TRIAD_FUNCTION float3 photon_power(const PhotonState* photon, float share) {
-    const float3 power = photon->source.power * photon->path.throughput * share;
+TRIAD_FUNCTION Vec3 photon_power(const PhotonState* photon, float share) {
+    const Vec3 power = vec3_scale(vec3_mul(photon->source.power, photon->path.throughput), share);
     const float range = photon->source.range;
-    return range > 0.0f ? power * (1.0f - math_square(math_square(photon->length / range))) : power;
+    return range > 0.0f ? vec3_scale(power, 1.0f - math_square(math_square(photon->length / range))) : power;
 }
 
 /* The photon may be kept for the map as it landed here. */
 TRIAD_FUNCTION void photon_land(const Scene* scene, PhotonState* photon, const Vertex* vertex,
-                                const VertexBsdf* v, float3 power, const SamplerBlock* u) {
+                                const VertexBsdf* v, Vec3 power, const SamplerBlock* u) {
 #if TRIAD_GATHER
     const PathState* path = &photon->path;
     if (scene->frame->photon_map == 0u || !bsdf_has_smooth(&v->bsdf)) return;
     ++photon->landings;
-    if (!(random_float(u->x.s3) * convert_float(photon->landings) < 1.0f)) return;
+    if (!(random_float(u->set[3].x) * (float)photon->landings < 1.0f)) return;
     const int baked = scene->frame->wavelength_from_camera != 0u; /* as it was published: counts twice */
-    photon->kept = photon_make(
-        vertex->surface.position,
-        power * (baked ? photon->filter : photon->per_density) * (1.0f / math_dot(vertex->wo, vertex->ng)),
-        vertex->wo, vertex->ng, path->edge, (path->traits & PATH_SPECULAR) && path->edge > 1u,
-        baked ? 0.0f : path_wavelength(&path->colours));
+    const Vec3 flux = vec3_mul(power, baked ? photon->filter : photon->per_density);
+    photon->kept =
+        photon_make(vertex->surface.position, vec3_scale(flux, 1.0f / vec3_dot(vertex->wo, vertex->ng)),
+                    vertex->wo, vertex->ng, path->edge, (path->traits & PATH_SPECULAR) && path->edge > 1u,
+                    baked ? 0.0f : path_wavelength(&path->colours));
 #else
     (void)scene, (void)photon, (void)vertex, (void)v, (void)power, (void)u;
 #endif
@@ -124,17 +124,19 @@ TRIAD_FUNCTION int photon_scatter(const Scene* scene, PathState* path, const Ver
     if (!scatter_sample(vertex, v, u, scatter)) return 0;
     const uint event = scatter->sample.event;
     if (event & BSDF_DELTA) {
-        path->throughput *= scatter->sample.weight;
+        path->throughput = vec3_mul(path->throughput, scatter->sample.weight);
         /* the adjoint of refraction: flux does not change as radiance does; and of shading normals */
-        path->throughput *= photon_tilt(v->wo.z, math_dot(vertex->wo, vertex->ng)) /
-                            photon_tilt(scatter->sample.wi.z, scatter->side);
+        path->throughput =
+            vec3_scale(path->throughput, photon_tilt(v->wo.z, vec3_dot(vertex->wo, vertex->ng)) /
+                                             photon_tilt(scatter->sample.wi.z, scatter->side));
 #if BSDF_TRANSMISSION
-        if (event & BSDF_TRANSMIT) path->throughput *= 1.0f / v->bsdf.body_scale;
+        if (event & BSDF_TRANSMIT) path->throughput = vec3_scale(path->throughput, 1.0f / v->bsdf.body_scale);
 #endif
     } else if (everywhere) {
-        path->throughput *= photon_bsdf(scene, &vertex->surface, vertex->wo, scatter->direction,
-                                        &vertex->around, path_wavelength(&path->colours)) *
-                            (fabs(scatter->side) / scatter->sample.pdf);
+        const Vec3 value = photon_bsdf(scene, &vertex->surface, vertex->wo, scatter->direction,
+                                       &vertex->around, path_wavelength(&path->colours));
+        path->throughput =
+            vec3_mul(path->throughput, vec3_scale(value, fabs(scatter->side) / scatter->sample.pdf));
     } else {
         return 0;
     }
@@ -158,12 +160,11 @@ TRIAD_FUNCTION_PER_CALL int photon_edge(const Scene* scene, global const PhotonF
     photon_disperse(scene, photon, &vertex);
 
     const SamplerBlock u = path_numbers(path);
-    const float3 power = photon_power(photon, share);
+    const Vec3 power = photon_power(photon, share);
     const int everywhere = photon_frame->scatter != 0u;
     if (path->edge > 1u && !everywhere)
         photon_splat(scene, film, photon_frame->pixel_area, &vertex, path_wavelength(&path->colours),
-                     power * photon->filter, (float2)(random_float(u.x.s2), random_float(u.y.s2)),
-                     ++photon->ray_name, tally);
+                     vec3_mul(power, photon->filter), random_point(u.set[2]), ++photon->ray_name, tally);
     const VertexBsdf bsdf = path_bsdf(scene, path, &vertex);
     if (path->edge > 1u || everywhere) photon_land(scene, photon, &vertex, &bsdf, power, &u);
 

@@ -17,12 +17,12 @@ TRIAD_FUNCTION_ONCE void trace_photon(SCENE_PARAMETERS PARAMETERS(TRACE_PHOTONS_
     const SplatFilm film = {sums, half_sums, tiles, first_pixel, pixels, half_index};
     Tally tally = tally_start();
     PhotonState photon = photon_start(&scene, photon_frame, photon_lights, casters, index, half_index);
-    if (max_abs3(photon.source.power) > 0.0f)
+    if (vec3_largest_abs(photon.source.power) > 0.0f)
         while (photon_edge(&scene, photon_frame, &film, share, &photon, &tally)) {
         }
 #if TRIAD_GATHER
     if (frame->photon_map) {
-        for (uint c = 0u; c < 3u; ++c) photon.kept.power[c] *= convert_float(photon.landings);
+        for (uint c = 0u; c < 3u; ++c) photon.kept.power[c] *= (float)photon.landings;
         landed[first_photon + item] = photon.kept;
     }
 #else

@@ -20,7 +20,9 @@ kernel void record_paths(SCENE_PARAMETERS PARAMETERS(RECORD_PATHS_LIST)) {
     tally.path = vertices + item * PATH_VERTICES;
     mega_follow(&scene, &path, &tally);
     PathRecord record;
-    vstore4(path_value(&path, sample.weight), 0, record.value);
+    const Vec4 value = path_value(&path, sample.weight);
+    record.value[0] = value.x, record.value[1] = value.y, record.value[2] = value.z,
+    record.value[3] = value.w;
     record.vertices = tally.vertices;
     record.rays = tally.rays;
     record.bin = sample.name.bin;

@@ -42,21 +42,21 @@ TRIAD_FUNCTION void tally_add(volatile global uint* counters, const Tally* t) {
 
 /* The present vertex. The last one kept stands for all later ones. */
 TRIAD_FUNCTION global PathVertex* record_at(const Tally* t) {
-    return t->path + min(t->vertices, (uint)PATH_VERTICES) - 1u;
+    return t->path + math_min_uint(t->vertices, (uint)PATH_VERTICES) - 1u;
 }
 
 /* The path's edge ended here: the first call for a vertex. */
-TRIAD_FUNCTION void record_vertex(Tally* t, const PathState* path, float3 position, const Hit* hit,
+TRIAD_FUNCTION void record_vertex(Tally* t, const PathState* path, Vec3 position, const Hit* hit,
                                   uint material) {
     ++t->vertices;
     global PathVertex* v = record_at(t);
     if (t->vertices <= PATH_VERTICES) {
-        vstore3((float3)(0.0f), 0, v->found);
-        vstore3((float3)(0.0f), 0, v->direct);
+        vec3_store(vec3_splat(0.0f), v->found, 0);
+        vec3_store(vec3_splat(0.0f), v->direct, 0);
         v->light = TRIAD_NONE;
     }
-    vstore3(position, 0, v->position);
-    vstore3((float3)(0.0f), 0, v->throughput);
+    vec3_store(position, v->position, 0);
+    vec3_store(vec3_splat(0.0f), v->throughput, 0);
     v->primitive = hit->primitive;
     v->instance = hit->instance;
     v->material = material;
@@ -70,7 +70,7 @@ TRIAD_FUNCTION void record_end(const Tally* t, uint why) { record_at(t)->end = w
 
 TRIAD_FUNCTION void record_found(const Tally* t, const PathState* path, Colour radiance) {
     global PathVertex* v = record_at(t);
-    vstore3(vload3(0, v->found) + path_found(&path->colours, radiance), 0, v->found);
+    vec3_store(vec3_add(VEC3_OF(v->found), path_found(&path->colours, radiance)), v->found, 0);
 }
 
 /* From the light that the vertex has chosen. */
@@ -78,15 +78,16 @@ TRIAD_FUNCTION void record_direct(const Tally* t, const Scene* scene, const Path
                                   Colour radiance) {
     global PathVertex* v = record_at(t);
     float unused;
-    v->light = cdf_find(&scene->frame->lights, scene->light_cdf, path_numbers(path).x.s2, &unused, &unused);
-    vstore3(vload3(0, v->direct) + path_found(&path->colours, radiance), 0, v->direct);
+    v->light =
+        cdf_find(&scene->frame->lights, scene->light_cdf, path_numbers(path).set[2].x, &unused, &unused);
+    vec3_store(vec3_add(VEC3_OF(v->direct), path_found(&path->colours, radiance)), v->direct, 0);
 }
 
 TRIAD_FUNCTION void record_event(const Tally* t, const PathState* path, uint event) {
     global PathVertex* v = record_at(t);
     v->end = PATH_GOES_ON;
     v->event = event;
-    vstore3(path_found(&path->colours, path->throughput), 0, v->throughput);
+    vec3_store(path_found(&path->colours, path->throughput), v->throughput, 0);
 }
 
 #else

@@ -8,18 +8,17 @@
 /* A direction in which a path can go on from a vertex. */
 typedef struct Scatter {
     BsdfSample sample; /* of the local frame */
-    float3 direction;
+    Vec3 direction;
     float side; /* cosine at the surface: below 0 beyond it */
 } Scatter;
 
 /* 0: none was sampled, or one that shading normals do not allow. */
 TRIAD_FUNCTION int scatter_sample(const Vertex* vertex, const VertexBsdf* v, const SamplerBlock* u,
                                   Scatter* scatter) {
-    scatter->sample = bsdf_sample(&v->bsdf, v->wo, random_float(u->x.s1),
-                                  (float2)(random_float(u->x.s0), random_float(u->y.s0)));
+    scatter->sample = bsdf_sample(&v->bsdf, v->wo, random_float(u->set[1].x), random_point(u->set[0]));
     if (scatter->sample.event == BSDF_NONE) return 0;
     scatter->direction = frame_to_world(&v->frame, scatter->sample.wi);
-    scatter->side = math_dot(scatter->direction, vertex->ng);
+    scatter->side = vec3_dot(scatter->direction, vertex->ng);
     return scatter->side * scatter->sample.wi.z > 0.0f;
 }
 
@@ -58,16 +57,16 @@ TRIAD_FUNCTION int path_scatter(const Scene* scene, PathState* path, const Verte
     float density = scatter->sample.pdf;
 #if PATH_EACH
     if (vertex->each) {
-        float4 densities;
+        Vec4 densities;
         weight =
             path_eval_each(scene, path_wavelengths(&path->colours), vertex, scatter->sample.wi, &densities);
         density = path_mean_density(&path->colours, densities);
         if (!(density > 0.0f)) return 0;
-        weight *= 1.0f / density;
-        path->colours.share *= densities / density;
+        weight = colour_scale(weight, 1.0f / density);
+        path->colours.share = vec4_mul(path->colours.share, vec4_div(densities, vec4_splat(density)));
     }
 #endif
-    path->throughput *= weight;
+    path->throughput = colour_mul(path->throughput, weight);
 #if BSDF_TRANSMISSION
     if (event & BSDF_TRANSMIT) path->body_scale *= v->bsdf.body_scale;
 #endif

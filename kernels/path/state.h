@@ -41,7 +41,7 @@ typedef struct PathState {
 #if TRIAD_TRANSMISSION
     float body_scale; /* factor of throughput that leaving the bodies around will undo: no reason to die */
     Bodies bodies;    /* that the path is in */
-    float3 from;      /* where the edge starts, before any offset: what bodies absorb goes by its length */
+    Vec3 from;        /* where the edge starts, before any offset: what bodies absorb goes by its length */
 #endif
     Colour radiance; /* that was found; with one wavelength: since it was drawn */
     float alpha;
@@ -59,13 +59,13 @@ TRIAD_FUNCTION PathState path_state(const Sampler* sampler, Ray ray, PathColour 
     p.edge = 1u;
     p.traits = PATH_STRAIGHT | PATH_SPECULAR;
     p.pdf = 0.0f;
-    p.throughput = (Colour)(1.0f);
+    p.throughput = colour_splat(1.0f);
 #if TRIAD_TRANSMISSION
     p.body_scale = 1.0f;
-    p.bodies = (Bodies)(TRIAD_NONE);
-    p.from = (float3)(ray.origin[0], ray.origin[1], ray.origin[2]);
+    p.bodies = bodies_none();
+    p.from = VEC3_OF(ray.origin);
 #endif
-    p.radiance = (Colour)(0.0f);
+    p.radiance = colour_splat(0.0f);
     p.alpha = 1.0f;
     p.colours = colours;
 #if PATH_FORKS
@@ -74,9 +74,7 @@ TRIAD_FUNCTION PathState path_state(const Sampler* sampler, Ray ray, PathColour 
     return p;
 }
 
-TRIAD_FUNCTION float3 path_direction(const PathState* path) {
-    return (float3)(path->ray.direction[0], path->ray.direction[1], path->ray.direction[2]);
-}
+TRIAD_FUNCTION Vec3 path_direction(const PathState* path) { return VEC3_OF(path->ray.direction); }
 
 TRIAD_FUNCTION float path_body_scale(const PathState* path) {
 #if TRIAD_TRANSMISSION

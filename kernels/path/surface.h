@@ -12,8 +12,8 @@
 typedef struct Vertex {
     Surface surface;
     Hit hit;
-    float3 wo;           /* unit, back along the edge */
-    float3 ng;           /* geometric normal on wo's side */
+    Vec3 wo;             /* unit, back along the edge */
+    Vec3 ng;             /* geometric normal on wo's side */
     int back;            /* that is the inner side of the surface */
     VertexBodies around; /* here: on wo's side */
 #if PATH_EACH
@@ -26,14 +26,15 @@ TRIAD_FUNCTION VertexBodies path_bodies(const Scene* scene, PathState* path, con
 #if TRIAD_TRANSMISSION
     const VertexBodies around = vertex_bodies(scene, s, back, path->bodies);
     path->bodies = around.here;
-    if (around.here.s0 != TRIAD_NONE && !path_is_back(path))
-        path->throughput *= path_transmittance(&path->colours, scene->materials + around.here.s0,
-                                               math_length(s->position - path->from));
+    if (around.here.x != TRIAD_NONE && !path_is_back(path))
+        path->throughput =
+            colour_mul(path->throughput, path_transmittance(&path->colours, scene->materials + around.here.x,
+                                                            vec3_length(vec3_sub(s->position, path->from))));
     path->from = s->position;
     return around;
 #else
     (void)path;
-    return vertex_bodies(scene, s, back, (Bodies)(TRIAD_NONE));
+    return vertex_bodies(scene, s, back, bodies_none());
 #endif
 }
 
@@ -46,9 +47,9 @@ TRIAD_FUNCTION Vertex path_surface(const Scene* scene, PathState* path, const Hi
     v.surface.specular_values = path_colour(&path->colours, v.surface.specular_colour);
 #endif
     record_vertex(tally, path, v.surface.position, hit, v.surface.material);
-    v.wo = -path_direction(path);
-    v.back = math_dot(v.wo, v.surface.geometric_normal) < 0.0f;
-    v.ng = v.back ? -v.surface.geometric_normal : v.surface.geometric_normal;
+    v.wo = vec3_negate(path_direction(path));
+    v.back = vec3_dot(v.wo, v.surface.geometric_normal) < 0.0f;
+    v.ng = v.back ? vec3_negate(v.surface.geometric_normal) : v.surface.geometric_normal;
     v.around = path_bodies(scene, path, &v.surface, v.back);
     return v;
 }

@@ -26,13 +26,13 @@ TRIAD_FUNCTION int path_survive(const Scene* scene, PathState* path, const Verte
     const float most = path->edge >= ROULETTE_ALWAYS_FROM ? ROULETTE_ALWAYS : 1.0f;
     /* in this order NaN stays NaN, and the path ends */
     const float survive =
-        math_min(most, colour_max(path->throughput) * scene->frame->roulette / path_body_scale(path));
+        math_min(most, colour_largest(path->throughput) * scene->frame->roulette / path_body_scale(path));
     record_end(tally, PATH_ROULETTE);
-    if (!(random_float(u->y.s1) < survive)) return 0;
-    path->throughput *= 1.0f / survive;
+    if (!(random_float(u->set[1].y) < survive)) return 0;
+    path->throughput = colour_scale(path->throughput, 1.0f / survive);
     record_event(tally, path, scatter->sample.event);
-    path->ray = vertex_spawn(&vertex->surface, scatter->side > 0.0f ? vertex->ng : -vertex->ng, &vertex->hit,
-                             scatter->direction);
+    path->ray = vertex_spawn(&vertex->surface, scatter->side > 0.0f ? vertex->ng : vec3_negate(vertex->ng),
+                             &vertex->hit, scatter->direction);
     ++path->edge;
     return 1;
 }

@@ -6,7 +6,7 @@
 #include "shading/photon_map.h"
 
 TRIAD_FUNCTION uint map_bucket(const PhotonMap* map, global const Photon* photon) {
-    return photon_bucket(map, photon_cell(map, vload3(0, photon->position)));
+    return photon_bucket(map, photon_cell(map, VEC3_OF(photon->position)));
 }
 
 /* counts: of the buckets, zero before. */

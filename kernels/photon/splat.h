@@ -7,8 +7,8 @@
 
 /* How the camera sees a point. */
 typedef struct Sight {
-    float3 direction; /* unit, from the point towards the eye */
-    float3 target;    /* the point of the lens */
+    Vec3 direction;   /* unit, from the point towards the eye */
+    Vec3 target;      /* the point of the lens */
     float x, y;       /* film position, in pixels of the full picture */
     float importance; /* of a unit of radiance per projected area at the point: 1 / m^2; 0: not in sight */
 } Sight;
@@ -16,39 +16,37 @@ typedef struct Sight {
 /* From p to a point of the lens, u in [0, 1)^2. A pixel's value is the mean of radiance over its area A on
  * the image plane at distance 1: a projected area dA cos at distance d counts dA cos / (d^2 cos_eye^3 A) of
  * it. */
-TRIAD_FUNCTION Sight splat_sight(const Camera* c, float pixel_area, float3 p, float2 u) {
-    const float3 right = (float3)(c->right[0], c->right[1], c->right[2]),
-                 up = (float3)(c->up[0], c->up[1], c->up[2]),
-                 forward = (float3)(c->forward[0], c->forward[1], c->forward[2]);
-    const float3 eye = (float3)(c->origin[0], c->origin[1], c->origin[2]);
+TRIAD_FUNCTION Sight splat_sight(const Camera* c, float pixel_area, Vec3 p, Vec2 u) {
+    const Vec3 right = VEC3_OF(c->right), up = VEC3_OF(c->up), forward = VEC3_OF(c->forward),
+               eye = VEC3_OF(c->origin);
     Sight s;
     s.target = eye;
     s.importance = 0.0f;
     float focus = 1.0f;
-    float2 lens = (float2)(0.0f);
+    Vec2 lens = vec2_splat(0.0f);
 #if TRIAD_LENS
     if (c->lens_radius > 0.0f) {
-        lens = sampling_disc(u) * c->lens_radius;
-        s.target += right * lens.x + up * lens.y;
+        lens = vec2_scale(sampling_disc(u), c->lens_radius);
+        s.target = vec3_add(s.target, vec3_add_scaled(vec3_scale(right, lens.x), up, lens.y));
         focus = c->focus_distance;
     }
 #else
     (void)u;
 #endif
-    const float3 to = p - s.target;
-    const float depth = math_dot(to, forward);
+    const Vec3 to = vec3_sub(p, s.target);
+    const float depth = vec3_dot(to, forward);
     if (!(depth > 0.0f)) return s;
-    float2 on_plane; /* in units of the extent */
+    Vec2 on_plane = vec2_make(vec3_dot(to, right), vec3_dot(to, up)); /* in units of the extent */
     if (c->projection == CAMERA_ORTHOGRAPHIC) {
-        on_plane = (float2)(math_dot(to, right), math_dot(to, up));
-        s.direction = -forward;
-        s.target = p - forward * depth;
+        s.direction = vec3_negate(forward);
+        s.target = vec3_add_scaled(p, forward, -depth);
         s.importance = 1.0f / pixel_area;
     } else {
         /* where the line through the lens crosses the plane in focus, seen from the middle of the lens */
-        on_plane = (float2)(math_dot(to, right), math_dot(to, up)) / depth + lens / focus;
-        const float inverse = 1.0f / math_length(to), cosine = depth * inverse;
-        s.direction = to * -inverse;
+        on_plane.x = on_plane.x / depth + lens.x / focus;
+        on_plane.y = on_plane.y / depth + lens.y / focus;
+        const float inverse = 1.0f / vec3_length(to), cosine = depth * inverse;
+        s.direction = vec3_scale(to, -inverse);
         s.importance = inverse * inverse / (cosine * cosine * cosine * pixel_area);
     }
     s.x = fma(on_plane.x / c->extent[0], 0.5f, 0.5f) * c->pixels[0];

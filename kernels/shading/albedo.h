@@ -2,42 +2,41 @@
 #ifndef TRIAD_SHADING_ALBEDO_H
 #define TRIAD_SHADING_ALBEDO_H
 
-#include "common/math.h"
+#include "common/vector.h"
 
 /* Position x in [0, 1] on an axis of `size` nodes: lower node, and the weight of the upper one. */
 TRIAD_FUNCTION uint albedo_node(float x, uint size, float* t) {
-    float p = math_saturate(x) * convert_float(size - 1u);
-    uint i = convert_uint(p);
+    float p = math_saturate(x) * (float)(size - 1u);
+    uint i = (uint)p;
     i = i < size - 2u ? i : size - 2u;
-    *t = p - convert_float(i);
+    *t = p - (float)i;
     return i;
 }
-TRIAD_FUNCTION float2 albedo_bilinear(global const float* table, uint size, uint row, uint column, float ty,
-                                      float tx) {
+TRIAD_FUNCTION Vec2 albedo_bilinear(global const float* table, uint size, uint row, uint column, float ty,
+                                    float tx) {
     global const float* p = table + (row * size + column) * 2u;
-    float2 a = vload2(0, p), b = vload2(1, p), c = vload2(size, p), d = vload2(size + 1u, p);
-    float2 x = (float2)(tx), lo = fma(x, b - a, a), hi = fma(x, d - c, c);
-    return fma((float2)(ty), hi - lo, lo);
+    Vec2 a = vec2_load(p, 0), b = vec2_load(p, 1), c = vec2_load(p, size), d = vec2_load(p, size + 1u);
+    return vec2_mix(vec2_mix(a, b, tx), vec2_mix(c, d, tx), ty);
 }
 /* (E, B): albedo of GGX reflection with Fresnel factor 1 and with (1 - cos)^5. */
-TRIAD_FUNCTION float2 albedo_ggx(global const float* tables, float root_mu, float roughness) {
+TRIAD_FUNCTION Vec2 albedo_ggx(global const float* tables, float root_mu, float roughness) {
     float ty, tx;
     uint row = albedo_node(roughness, ALBEDO_SIZE, &ty), column = albedo_node(root_mu, ALBEDO_SIZE, &tx);
     return albedo_bilinear(tables, ALBEDO_SIZE, row, column, ty, tx);
 }
 /* A rough dielectric body seen from outside or inside, without the change of radiance by its index:
  * (reflection plus transmission, the same if only total reflection reflected). f0 = ((n - 1) / (n + 1))^2. */
-TRIAD_FUNCTION float2 albedo_glass(global const float* tables, float root_mu, float roughness, float f0,
-                                   uint inside) {
+TRIAD_FUNCTION Vec2 albedo_glass(global const float* tables, float root_mu, float roughness, float f0,
+                                 uint inside) {
     float tz, ty, tx;
     uint plane = albedo_node(sqrt(sqrt(f0) * (1.0f / ALBEDO_GLASS_MAX)), ALBEDO_GLASS_SIZE, &tz);
     uint row = albedo_node(roughness, ALBEDO_GLASS_SIZE, &ty),
          column = albedo_node(root_mu, ALBEDO_GLASS_SIZE, &tx);
     const uint side = ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2u;
     global const float* table = tables + ALBEDO_GLASS_FIRST + (inside * ALBEDO_GLASS_SIZE + plane) * side;
-    float2 lo = albedo_bilinear(table, ALBEDO_GLASS_SIZE, row, column, ty, tx);
-    float2 hi = albedo_bilinear(table + side, ALBEDO_GLASS_SIZE, row, column, ty, tx);
-    return fma((float2)(tz), hi - lo, lo);
+    Vec2 lo = albedo_bilinear(table, ALBEDO_GLASS_SIZE, row, column, ty, tx);
+    Vec2 hi = albedo_bilinear(table + side, ALBEDO_GLASS_SIZE, row, column, ty, tx);
+    return vec2_mix(lo, hi, tz);
 }
 
 #endif

@@ -11,7 +11,6 @@
 #define TRIAD_SHADING_BSDF_H
 
 #include "common/colour.h"
-#include "common/math.h"
 #include "common/sampling.h"
 #include "shading/albedo.h"
 #include "shading/fresnel.h"
@@ -56,7 +55,7 @@ typedef struct Bsdf {
 } Bsdf;
 
 typedef struct BsdfSample {
-    float3 wi;
+    Vec3 wi;
     Colour weight; /* f |cos| / pdf */
     float pdf;     /* solid angle, over all lobes; 0 for a delta lobe */
     uint event;    /* BSDF_* bits; BSDF_NONE: absorbed */
@@ -66,25 +65,25 @@ typedef struct BsdfSample {
 /* Fresnel factor of the transmitting part, c the cosine on wo's side. */
 TRIAD_FUNCTION Colour bsdf_transmitter_fresnel(const Bsdf* b, float c) {
     float r = fresnel_dielectric(c, b->eta);
-    if (r >= 1.0f) return (Colour)(1.0f);
-    Colour f = fma(b->fresnel1, (Colour)(r), b->fresnel0);
+    if (r >= 1.0f) return colour_splat(1.0f);
+    Colour f = colour_fma_scale(r, b->fresnel1, b->fresnel0);
     /* Brewster's dip goes below normal incidence */
-    f = colour_above(f, (Colour)(0.0f));
+    f = colour_at_least(f, colour_splat(0.0f));
     /* both faces of a thin wall and all reflections between them: R = 2F / (1 + F), T = (1 - F) / (1 + F) */
-    return b->solid ? f : 2.0f * f / (1.0f + f);
+    return b->solid ? f : colour_div(colour_scale(f, 2.0f), colour_add(colour_splat(1.0f), f));
 }
 #endif
 
 #if TRIAD_SPECULAR
 /* What a microfacet reflects and lets through (change of radiance not included) at wo.h = c. */
 TRIAD_FUNCTION void bsdf_microfacet(const Bsdf* b, float c, Colour* reflected, Colour* transmitted) {
-    *reflected = fma(b->specular1, (Colour)(fresnel_schlick_weight(c)), b->specular0);
-    *transmitted = (Colour)(0.0f);
+    *reflected = colour_fma_scale(fresnel_schlick_weight(c), b->specular1, b->specular0);
+    *transmitted = colour_splat(0.0f);
 #if BSDF_TRANSMISSION
     if (b->transmits) {
         Colour f = bsdf_transmitter_fresnel(b, c);
-        *reflected += b->transmitter * f;
-        *transmitted = b->transmitter * b->tint * (1.0f - f);
+        *reflected = colour_add(*reflected, colour_mul(b->transmitter, f));
+        *transmitted = colour_mul(colour_mul(b->transmitter, b->tint), colour_complement(f));
     }
 #endif
 }
@@ -112,15 +111,16 @@ TRIAD_FUNCTION float bsdf_cap_factor(const Bsdf* b, float z_o, uint in_cap) {
 #endif
 
 /* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission in [0, 1], ior 0 or at least 1. */
-TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float* albedo_tables) {
+TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
     Bsdf b;
 #if !TRIAD_SPECULAR
     (void)wo, (void)albedo_tables;
     b.diffuse = in->base_colour;
 #else
     float f0 = fresnel_normal(in->ior);
-    Colour coat0 = colour_min(f0 * in->specular_colour, (Colour)(1.0f)) * in->specular;
-    Colour coat90 = (Colour)(in->specular);
+    Colour coat0 =
+        colour_scale(colour_at_most(colour_scale(in->specular_colour, f0), colour_splat(1.0f)), in->specular);
+    Colour coat90 = colour_splat(in->specular);
     float dielectric = 1.0f - in->metallic;
     float opaque = dielectric;
     b.alpha = math_square(in->roughness);
@@ -137,53 +137,58 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
     lambert = lambert && !b.transmits;
 #endif
     if (lambert) { /* what follows would come to the same bits */
-        b.diffuse = in->base_colour * opaque;
-        b.specular0 = b.specular1 = (Colour)(0.0f);
+        b.diffuse = colour_scale(in->base_colour, opaque);
+        b.specular0 = b.specular1 = colour_splat(0.0f);
         b.p_specular = 0.0f;
         return b;
     }
     /* directional albedo of GGX reflection, Fresnel factor 1 and (1 - cos)^5 */
-    float2 albedo = (float2)(1.0f, fresnel_schlick_weight(wo.z));
+    Vec2 albedo = vec2_make(1.0f, fresnel_schlick_weight(wo.z));
     float root_mu = sqrt(wo.z);
     if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
     float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
 
     Colour metal0 = in->base_colour;
-    Colour metal = in->metallic * fma(metal0, (Colour)(missing), (Colour)(1.0f));
-    Colour coat = fma(coat0, (Colour)(missing), (Colour)(1.0f));
-    b.specular0 = fma(metal, metal0, opaque * coat * coat0);
-    b.specular1 = fma(metal, 1.0f - metal0, opaque * coat * (coat90 - coat0));
-    Colour coat_albedo = coat * fma(coat90 - coat0, (Colour)(albedo.y), coat0 * albedo.x);
-    b.diffuse = in->base_colour * (opaque * math_max(0.0f, 1.0f - colour_max(coat_albedo)));
+    Colour metal = colour_scale(colour_fma_scale(missing, metal0, colour_splat(1.0f)), in->metallic);
+    Colour coat = colour_fma_scale(missing, coat0, colour_splat(1.0f));
+    Colour opaque_coat = colour_scale(coat, opaque), coat_rise = colour_sub(coat90, coat0);
+    b.specular0 = colour_fma(metal, metal0, colour_mul(opaque_coat, coat0));
+    b.specular1 = colour_fma(metal, colour_complement(metal0), colour_mul(opaque_coat, coat_rise));
+    Colour coat_albedo =
+        colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
+    b.diffuse = colour_scale(in->base_colour, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
 
     b.stretch = ggx_stretch(wo, b.alpha);
-    float p = colour_average(fma(b.specular1, (Colour)(albedo.y), b.specular0 * albedo.x));
+    float p = colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
     uint bounded = !b.smooth;
 #if BSDF_TRANSMISSION
     b.p_cap = 0.0f;
     if (b.transmits) {
         bounded = 0u;
-        b.fresnel1 = (coat90 - coat0) / (1.0f - f0);
-        b.fresnel0 = fma((Colour)(-f0), b.fresnel1, coat0);
+        b.fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
+        b.fresnel0 = colour_fma_scale(-f0, b.fresnel1, coat0);
         b.tint = in->base_colour;
         b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
         b.body_scale = in->solid ? 1.0f / (b.eta * b.eta) : 1.0f;
-        b.transmitter = (Colour)(transmitter);
+        b.transmitter = colour_splat(transmitter);
         if (!b.smooth) {
-            Colour kept = (Colour)(albedo.x);
+            Colour kept = colour_splat(albedo.x);
             if (in->solid) {
-                float2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
-                kept =
-                    b.fresnel0 * albedo.x + b.fresnel1 * glass.x + (1.0f - b.fresnel0 - b.fresnel1) * glass.y;
+                Vec2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
+                Colour lost = colour_sub(colour_complement(b.fresnel0), b.fresnel1);
+                kept = colour_add(
+                    colour_add(colour_scale(b.fresnel0, albedo.x), colour_scale(b.fresnel1, glass.x)),
+                    colour_scale(lost, glass.y));
             }
-            b.transmitter = transmitter / kept;
+            b.transmitter = colour_div(colour_splat(transmitter), kept);
             /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
              * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
             if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - colour_average(kept));
             bounded = b.p_cap > 0.0f;
         }
         Colour f = bsdf_transmitter_fresnel(&b, wo.z);
-        p += transmitter * math_max(colour_average(f + (1.0f - f) * b.tint), BSDF_MIN_TRANSMITTER);
+        Colour seen = colour_add(f, colour_mul(colour_complement(f), b.tint));
+        p += transmitter * math_max(colour_average(seen), BSDF_MIN_TRANSMITTER);
     }
 #endif
     b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;
@@ -195,7 +200,7 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, float3 wo, global const float
 
 /* Nonzero when bsdf_eval can be: else there is no point in sampling lights. */
 TRIAD_FUNCTION uint bsdf_has_smooth(const Bsdf* b) {
-    uint lit = colour_max(b->diffuse) > 0.0f;
+    uint lit = colour_largest(b->diffuse) > 0.0f;
 #if TRIAD_SPECULAR
     lit = lit || (b->p_specular > 0.0f && !b->smooth);
 #endif
@@ -204,17 +209,17 @@ TRIAD_FUNCTION uint bsdf_has_smooth(const Bsdf* b) {
 
 #if TRIAD_SPECULAR
 /* Adds the microfacets' f |cos| and pdf; wi.z != 0. */
-TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, Colour* f, float* pdf) {
+TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, Vec3 wo, Vec3 wi, Colour* f, float* pdf) {
     Colour reflected, transmitted;
 #if BSDF_TRANSMISSION
     if (wi.z < 0.0f) {
-        float3 w = b->solid ? wi : (float3)(wi.x, wi.y, -wi.z);
+        Vec3 w = b->solid ? wi : vec3_make(wi.x, wi.y, -wi.z);
         float eta = b->solid ? b->eta : 1.0f;
-        float3 h = fma((float3)(eta), w, wo);
-        float l2 = math_dot(h, h);
+        Vec3 h = vec3_fma_scale(eta, w, wo);
+        float l2 = vec3_dot(h, h);
         if (!(l2 > 0.0f)) return;
-        h *= (h.z < 0.0f ? -1.0f : 1.0f) / sqrt(l2);
-        float wo_h = math_dot(wo, h), wi_h = math_dot(w, h);
+        h = vec3_scale(h, (h.z < 0.0f ? -1.0f : 1.0f) / sqrt(l2));
+        float wo_h = vec3_dot(wo, h), wi_h = vec3_dot(w, h);
         if (wo_h <= 0.0f || (b->solid && wi_h >= 0.0f)) return;
         bsdf_microfacet(b, wo_h, &reflected, &transmitted);
         float reflect = bsdf_reflect_probability(b, reflected, transmitted);
@@ -223,7 +228,7 @@ TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, C
         /* |d omega_h / d omega_i|: Walter et al. 2007 eq. 17; a thin wall mirrors the reflection */
         float jacobian = b->solid ? eta * eta * -wi_h / l2 : 1.0f / (4.0f * wo_h);
         float masking = ggx_masking(wo.z, b->stretch, -wi.z, ggx_stretch(wi, b->alpha));
-        *f += transmitted * (b->body_scale * wo_h * jacobian * d * masking);
+        *f = colour_add(*f, colour_scale(transmitted, b->body_scale * wo_h * jacobian * d * masking));
         /* a normal of ggx_sample within the cap */
         float a2 = b->alpha * b->alpha;
         uint in_cap =
@@ -233,14 +238,15 @@ TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, C
         return;
     }
 #endif
-    float3 h = wo + wi;
-    float c = 0.5f * math_length(h); /* |wo + wi| = 2 wo.h */
+    Vec3 h = vec3_add(wo, wi);
+    float c = 0.5f * vec3_length(h); /* |wo + wi| = 2 wo.h */
     if (!(c > 0.0f)) return;         /* both in the plane, opposite */
     bsdf_microfacet(b, c, &reflected, &transmitted);
     float reflect = bsdf_reflect_probability(b, reflected, transmitted);
     if (reflect < 0.0f) return;
     float d = ggx_distribution(h, b->alpha);
-    *f += reflected * (0.25f * d * ggx_masking(wo.z, b->stretch, wi.z, ggx_stretch(wi, b->alpha)));
+    float masking = ggx_masking(wo.z, b->stretch, wi.z, ggx_stretch(wi, b->alpha));
+    *f = colour_add(*f, colour_scale(reflected, 0.25f * d * masking));
 #if BSDF_TRANSMISSION
     if (b->transmits) {
         *pdf += b->p_specular * reflect * 0.5f * d * bsdf_cap_factor(b, wo.z, 1u);
@@ -252,12 +258,12 @@ TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, float3 wo, float3 wi, C
 #endif
 
 /* f |cos wi| and its pdf over all lobes; delta lobes excluded. */
-TRIAD_FUNCTION_PER_CALL Colour bsdf_eval(const Bsdf* b, float3 wo, float3 wi, float* pdf) {
-    Colour f = (Colour)(0.0f);
+TRIAD_FUNCTION_PER_CALL Colour bsdf_eval(const Bsdf* b, Vec3 wo, Vec3 wi, float* pdf) {
+    Colour f = colour_splat(0.0f);
     *pdf = 0.0f;
     if (wi.z > 0.0f) {
         float lambert = wi.z * MATH_INV_PI;
-        f = b->diffuse * lambert;
+        f = colour_scale(b->diffuse, lambert);
         *pdf = lambert;
     }
 #if TRIAD_SPECULAR
@@ -276,10 +282,10 @@ TRIAD_FUNCTION_PER_CALL Colour bsdf_eval(const Bsdf* b, float3 wo, float3 wi, fl
 }
 
 /* One sample: u_lobe picks the lobe, u the direction; all in [0, 1). */
-TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, float2 u) {
+TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2 u) {
     BsdfSample s;
-    s.wi = (float3)(0.0f, 0.0f, 1.0f);
-    s.weight = (Colour)(0.0f);
+    s.wi = vec3_make(0.0f, 0.0f, 1.0f);
+    s.weight = colour_splat(0.0f);
     s.pdf = 0.0f;
     s.event = BSDF_NONE;
 #if TRIAD_SPECULAR
@@ -293,8 +299,8 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, fl
             cap = bounded ? cap : 1.0f;
         }
 #endif
-        float3 h = b->smooth ? (float3)(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, u);
-        float c = b->smooth ? wo.z : math_min(math_dot(wo, h), 1.0f);
+        Vec3 h = b->smooth ? vec3_make(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, u);
+        float c = b->smooth ? wo.z : math_min(vec3_dot(wo, h), 1.0f);
         Colour reflected, transmitted;
         bsdf_microfacet(b, c, &reflected, &transmitted);
         float reflect = bsdf_reflect_probability(b, reflected, transmitted);
@@ -303,25 +309,26 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, fl
 #if BSDF_TRANSMISSION
         through = b->transmits && u_lobe >= reflect * b->p_specular;
         if (through && b->solid) {
-            s.wi = fma((float3)(c / b->eta - fresnel_refracted_cosine(c, b->eta)), h, wo * (-1.0f / b->eta));
-            if (b->eta == 1.0f) s.wi = -wo;
+            s.wi = vec3_fma_scale(c / b->eta - fresnel_refracted_cosine(c, b->eta), h,
+                                  vec3_scale(wo, -1.0f / b->eta));
+            if (b->eta == 1.0f) s.wi = vec3_negate(wo);
         } else
 #endif
         {
-            s.wi = math_reflect(wo, h);
+            s.wi = vec3_reflect(wo, h);
             if (through) s.wi.z = -s.wi.z;
         }
         if (through ? s.wi.z >= 0.0f : s.wi.z <= 0.0f) return s; /* single scattering ends in the surface */
         s.event = (b->smooth ? BSDF_DELTA : BSDF_GLOSSY) | (through ? BSDF_TRANSMIT : 0u);
         if (b->smooth) {
             float p = b->p_specular * (through ? 1.0f - reflect : reflect);
-            s.weight = (through ? transmitted : reflected) / p;
+            s.weight = colour_div(through ? transmitted : reflected, colour_splat(p));
 #if BSDF_TRANSMISSION
-            if (through) s.weight *= b->body_scale;
+            if (through) s.weight = colour_scale(s.weight, b->body_scale);
 #endif
             return s;
         }
-        s.wi = math_normalize(s.wi);
+        s.wi = vec3_normalize(s.wi);
     } else
 #endif
     {
@@ -343,7 +350,7 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, float3 wo, float u_lobe, fl
         s.event = BSDF_NONE;
         return s;
     }
-    s.weight = f / s.pdf;
+    s.weight = colour_div(f, colour_splat(s.pdf));
     return s;
 }
 

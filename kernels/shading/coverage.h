@@ -22,7 +22,7 @@ TRIAD_FUNCTION int coverage_accept(const Coverage* c, uint instance, uint primit
     const float coverage = surface_coverage(c->scene, primitive, u, v);
     return coverage >= 1.0f ||
            (coverage > 0.0f &&
-            random_float(random_hash((uint4)(c->ray, instance, primitive, 0u))) < coverage);
+            random_float(random_hash(uvec4_make(c->ray, instance, primitive, 0u))) < coverage);
 }
 
 #define TRAVERSAL_CONTEXT const Coverage*

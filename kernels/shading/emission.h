@@ -12,31 +12,31 @@
 
 typedef struct PhotonSource {
     Ray ray;
-    float3 power;  /* flux in W over the density of everything that was drawn; black: no photon */
+    Vec3 power;    /* flux in W over the density of everything that was drawn; black: no photon */
     float range;   /* punctual light: where it ends; 0: nowhere */
     uint spectrum; /* of the light: power is its tint, still to be multiplied by what spectrum.h says */
 } PhotonSource;
 
 /* The cone of directions from p that hit a caster: squared sine of its half angle (more than 1: p is inside,
  * and every direction hits) and solid angle / 2 pi. */
-TRIAD_FUNCTION float photon_cone(global const Caster* caster, float3 p, float3* axis, float* sin2) {
-    *axis = (float3)(caster->centre[0], caster->centre[1], caster->centre[2]) - p;
-    const float distance2 = math_dot(*axis, *axis);
+TRIAD_FUNCTION float photon_cone(global const Caster* caster, Vec3 p, Vec3* axis, float* sin2) {
+    *axis = vec3_sub(VEC3_OF(caster->centre), p);
+    const float distance2 = vec3_dot(*axis, *axis);
     const float radius2 = caster->radius * caster->radius;
     if (!(distance2 > radius2)) {
         *sin2 = 2.0f;
         return 2.0f;
     }
-    *axis *= 1.0f / sqrt(distance2);
+    *axis = vec3_scale(*axis, 1.0f / sqrt(distance2));
     *sin2 = radius2 / distance2;
     return sampling_one_minus_cos(*sin2);
 }
 
 /* A direction from p to one of the casters; pick and u in [0, 1). Returns 1 / density in solid angle. */
-TRIAD_FUNCTION float photon_aim(global const Caster* casters, uint count, float3 p, float pick, float2 u,
-                                float3* direction) {
+TRIAD_FUNCTION float photon_aim(global const Caster* casters, uint count, Vec3 p, float pick, Vec2 u,
+                                Vec3* direction) {
     float total = 0.0f, sin2;
-    float3 axis;
+    Vec3 axis;
     for (uint i = 0u; i < count; ++i) total += photon_cone(casters + i, p, &axis, &sin2);
     float left = pick * total;
     uint chosen = 0u;
@@ -50,27 +50,26 @@ TRIAD_FUNCTION float photon_aim(global const Caster* casters, uint count, float3
         *direction = sampling_sphere(u);
     } else {
         const ShadingFrame frame = frame_make(axis);
-        *direction = math_normalize(frame_to_world(&frame, sampling_cone(u, share)));
+        *direction = vec3_normalize(frame_to_world(&frame, sampling_cone(u, share)));
     }
     uint hits = 1u;
     for (uint i = 0u; i < count; ++i) {
         if (i == chosen) continue;
         photon_cone(casters + i, p, &axis, &sin2);
-        const float3 off = math_cross(axis, *direction);
-        hits += sin2 > 1.0f || (math_dot(axis, *direction) > 0.0f && math_dot(off, off) <= sin2);
+        const Vec3 off = vec3_cross(axis, *direction);
+        hits += sin2 > 1.0f || (vec3_dot(axis, *direction) > 0.0f && vec3_dot(off, off) <= sin2);
     }
     return 2.0f * MATH_PI * total / (float)hits;
 }
 
 /* A direction from a light on the spot that is aimed at nothing: by the cosine, within the cone of a spot, or
  * anywhere. Returns 1 / density in solid angle. */
-TRIAD_FUNCTION float photon_aimless(const Light* light, float3 axis, float pick, float2 u,
-                                    float3* direction) {
+TRIAD_FUNCTION float photon_aimless(const Light* light, Vec3 axis, float pick, Vec2 u, Vec3* direction) {
     const ShadingFrame frame = frame_make(axis);
     if (light->type == LIGHT_TRIANGLE) {
-        const float3 d = sampling_cosine(u);
+        const Vec3 d = sampling_cosine(u);
         const int both = (light->flags & MATERIAL_DOUBLE_SIDED) != 0u;
-        *direction = frame_to_world(&frame, (float3)(d.xy, both && pick < 0.5f ? -d.z : d.z));
+        *direction = frame_to_world(&frame, vec3_make(d.x, d.y, both && pick < 0.5f ? -d.z : d.z));
         return d.z > 0.0f ? (both ? 2.0f : 1.0f) * MATH_PI / d.z : 0.0f;
     }
     if (light->type == LIGHT_SPOT) {
@@ -85,12 +84,13 @@ TRIAD_FUNCTION float photon_aimless(const Light* light, float3 axis, float pick,
 /* A ray along `direction` through the disc that one of the casters shows to it; without casters, through the
  * one that the scene shows. Returns 1 / density per area across the direction. */
 TRIAD_FUNCTION float photon_aim_from_afar(global const PhotonFrame* f, global const Caster* casters,
-                                          float3 direction, float pick, float2 u, float3* origin) {
-    const float3 centre = (float3)(f->scene_centre[0], f->scene_centre[1], f->scene_centre[2]);
+                                          Vec3 direction, float pick, Vec2 u, Vec3* origin) {
+    const Vec3 centre = VEC3_OF(f->scene_centre);
     const ShadingFrame frame = frame_make(direction);
     if (f->casters == 0u) {
-        const float2 d = sampling_disc(u) * f->scene_radius;
-        *origin = centre + frame.x * d.x + frame.y * d.y - direction * (1.01f * f->scene_radius);
+        const Vec2 d = vec2_scale(sampling_disc(u), f->scene_radius);
+        const Vec3 through = vec3_add_scaled(vec3_add_scaled(centre, frame.x, d.x), frame.y, d.y);
+        *origin = vec3_add_scaled(through, direction, -1.01f * f->scene_radius);
         return MATH_PI * math_square(f->scene_radius);
     }
     float total = 0.0f;
@@ -102,18 +102,17 @@ TRIAD_FUNCTION float photon_aim_from_afar(global const PhotonFrame* f, global co
         if (left < share) break;
         left -= share;
     }
-    const float2 d = sampling_disc(u) * casters[chosen].radius;
-    const float3 through =
-        (float3)(casters[chosen].centre[0], casters[chosen].centre[1], casters[chosen].centre[2]) +
-        frame.x * d.x + frame.y * d.y;
+    const Vec2 d = vec2_scale(sampling_disc(u), casters[chosen].radius);
+    const Vec3 through =
+        vec3_add_scaled(vec3_add_scaled(VEC3_OF(casters[chosen].centre), frame.x, d.x), frame.y, d.y);
     uint hits = 1u;
     for (uint i = 0u; i < f->casters; ++i) {
-        const float3 to =
-            (float3)(casters[i].centre[0], casters[i].centre[1], casters[i].centre[2]) - through;
-        const float3 off = math_cross(to, direction);
-        hits += i != chosen && math_dot(off, off) <= math_square(casters[i].radius);
+        const Vec3 to = vec3_sub(VEC3_OF(casters[i].centre), through);
+        const Vec3 off = vec3_cross(to, direction);
+        hits += i != chosen && vec3_dot(off, off) <= math_square(casters[i].radius);
     }
-    *origin = through - direction * (math_dot(through - centre, direction) + 1.01f * f->scene_radius);
+    const float back = vec3_dot(vec3_sub(through, centre), direction) + 1.01f * f->scene_radius;
+    *origin = vec3_add_scaled(through, direction, -back);
     return MATH_PI * total / (float)hits;
 }
 
@@ -122,33 +121,33 @@ TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonF
                                         global const uint* light_tree, global const Caster* casters,
                                         const SamplerBlock* u) {
     PhotonSource s;
-    s.power = (float3)(0.0f);
+    s.power = vec3_splat(0.0f);
     s.range = 0.0f;
     s.ray.t_max = INFINITY;
     s.ray.skip_instance = s.ray.skip_primitive = TRIAD_NONE;
     float within, probability;
-    const uint index = cdf_find(&f->lights, light_tree, u->x.s3, &within, &probability);
+    const uint index = cdf_find(&f->lights, light_tree, u->set[3].x, &within, &probability);
     const Light light = scene->lights[index];
     s.spectrum = light.flags >> LIGHT_SPECTRUM_SHIFT;
-    const float pick = random_float(u->y.s3);
-    const float2 on_light = (float2)(random_float(u->x.s0), random_float(u->y.s0));
-    const float2 aim = (float2)(random_float(u->x.s1), random_float(u->y.s1));
-    const float3 colour = (float3)(light.colour[0], light.colour[1], light.colour[2]);
-    const float3 axis = (float3)(light.axis[0], light.axis[1], light.axis[2]);
-    float3 origin = (float3)(light.position[0], light.position[1], light.position[2]), direction = axis;
+    const float pick = random_float(u->set[3].y);
+    const Vec2 on_light = random_point(u->set[0]), aim = random_point(u->set[1]);
+    const Vec3 colour = VEC3_OF(light.colour);
+    const Vec3 axis = VEC3_OF(light.axis);
+    Vec3 origin = VEC3_OF(light.position), direction = axis;
     (void)on_light, (void)colour, (void)pick, (void)aim;
 #if TRIAD_TRIANGLE_LIGHTS
     if (light.type == LIGHT_TRIANGLE) {
-        const float2 b = sampling_triangle(on_light);
-        const float3 radiance = light_triangle_radiance(scene, &light, b);
-        origin += (float3)(light.edge1[0], light.edge1[1], light.edge1[2]) * b.x +
-                  (float3)(light.edge2[0], light.edge2[1], light.edge2[2]) * b.y;
+        const Vec2 b = sampling_triangle(on_light);
+        const Vec3 radiance = light_triangle_radiance(scene, &light, b);
+        origin = vec3_add(origin,
+                          vec3_add_scaled(vec3_scale(VEC3_OF(light.edge1), b.x), VEC3_OF(light.edge2), b.y));
         const float solid_angle = f->casters ? photon_aim(casters, f->casters, origin, pick, aim, &direction)
                                              : photon_aimless(&light, axis, pick, aim, &direction);
-        float cosine = math_dot(axis, direction);
+        float cosine = vec3_dot(axis, direction);
         if (light.flags & MATERIAL_DOUBLE_SIDED) cosine = fabs(cosine);
-        origin += axis * (copysign(32.0f * 0x1.0p-23f, math_dot(axis, direction)) * max_abs3(origin));
-        if (cosine > 0.0f) s.power = radiance * (cosine * light.area * solid_angle / probability);
+        const float outside = copysign(32.0f * 0x1.0p-23f, vec3_dot(axis, direction));
+        origin = vec3_add_scaled(origin, axis, outside * vec3_largest_abs(origin));
+        if (cosine > 0.0f) s.power = vec3_scale(radiance, cosine * light.area * solid_angle / probability);
         s.ray.skip_instance = 0u; /* emissive geometry is flattened */
         s.ray.skip_primitive = light.primitive;
     }
@@ -157,25 +156,28 @@ TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonF
     if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT) {
         const float solid_angle = f->casters ? photon_aim(casters, f->casters, origin, pick, aim, &direction)
                                              : photon_aimless(&light, axis, pick, aim, &direction);
-        s.power = colour * (solid_angle / probability);
+        s.power = vec3_scale(colour, solid_angle / probability);
         if (light.type == LIGHT_SPOT)
-            s.power *= math_square(
-                clamp(fma(math_dot(axis, direction), light.cone_scale, light.cone_offset), 0.0f, 1.0f));
+            s.power = vec3_scale(
+                s.power,
+                math_square(math_clamp(fma(vec3_dot(axis, direction), light.cone_scale, light.cone_offset),
+                                       0.0f, 1.0f)));
         s.range = light.range;
     }
     if (light.type == LIGHT_DIRECTIONAL)
-        s.power = colour * (photon_aim_from_afar(f, casters, direction, pick, aim, &origin) / probability);
+        s.power =
+            vec3_scale(colour, photon_aim_from_afar(f, casters, direction, pick, aim, &origin) / probability);
 #endif
 #if TRIAD_ENVIRONMENT_MAP
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
-        float2 uv;
+        Vec2 uv;
         float pdf;
-        direction = -environment_sample(scene, &e, (uint2)(u->x.s0, u->y.s0), &uv);
-        const float3 radiance = environment_lookup(scene, &e, uv, &pdf);
+        direction = vec3_negate(environment_sample(scene, &e, u->set[0], &uv));
+        const Vec3 radiance = environment_lookup(scene, &e, uv, &pdf);
         if (pdf > 0.0f)
-            s.power = radiance *
-                      (photon_aim_from_afar(f, casters, direction, pick, aim, &origin) / (probability * pdf));
+            s.power = vec3_scale(radiance, photon_aim_from_afar(f, casters, direction, pick, aim, &origin) /
+                                               (probability * pdf));
     }
 #endif
     s.ray.origin[0] = origin.x, s.ray.origin[1] = origin.y, s.ray.origin[2] = origin.z;

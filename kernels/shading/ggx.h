@@ -7,24 +7,24 @@
 #ifndef TRIAD_SHADING_GGX_H
 #define TRIAD_SHADING_GGX_H
 
-#include "common/math.h"
+#include "common/vector.h"
 
 /* D of the direction h, which need not be normalised: alpha^2 / (pi (x^2 + y^2 + alpha^2 z^2)^2) for a unit
  * h. The usual form with cos^2 (alpha^2 - 1) + 1 loses everything below alpha 1e-3. */
-TRIAD_FUNCTION float ggx_distribution(float3 h, float alpha) {
+TRIAD_FUNCTION float ggx_distribution(Vec3 h, float alpha) {
     float xy = fma(h.x, h.x, h.y * h.y), z = h.z * h.z;
     float q = alpha * (xy + z) / fma(alpha * alpha, z, xy);
     return q * q * MATH_INV_PI;
 }
 
 /* s(w). */
-TRIAD_FUNCTION float ggx_stretch(float3 w, float alpha) {
+TRIAD_FUNCTION float ggx_stretch(Vec3 w, float alpha) {
     return sqrt(fma(alpha * alpha, fma(w.x, w.x, w.y * w.y), w.z * w.z));
 }
 
 /* Lower bound k of the spherical cap that reflects above the horizon (Eto and Tokuyoshi 2023, eq. 5); 1 =
  * unbounded. */
-TRIAD_FUNCTION float ggx_cap(float3 wo, float alpha) {
+TRIAD_FUNCTION float ggx_cap(Vec3 wo, float alpha) {
     float s2 = math_square(1.0f + sqrt(fma(wo.x, wo.x, wo.y * wo.y)));
     float a2 = alpha * alpha;
     return (1.0f - a2) * s2 / fma(a2, wo.z * wo.z, s2);
@@ -32,9 +32,9 @@ TRIAD_FUNCTION float ggx_cap(float3 wo, float alpha) {
 
 /* A visible normal for wo (wo.z >= 0), stretch = s(wo): spherical caps (Dupuy and Benyoub 2023), cut at k (1:
  * whole). Unit, z > 0, and on wo's side. */
-TRIAD_FUNCTION float3 ggx_sample(float3 wo, float alpha, float stretch, float k, float2 u) {
+TRIAD_FUNCTION Vec3 ggx_sample(Vec3 wo, float alpha, float stretch, float k, Vec2 u) {
     float inv = 1.0f / stretch;
-    float3 w = (float3)(alpha * wo.x * inv, alpha * wo.y * inv, wo.z * inv);
+    Vec3 w = vec3_make(alpha * wo.x * inv, alpha * wo.y * inv, wo.z * inv);
     /* h = cap point + w; sums of positive terms for h.z and 1 + z: at small alpha their cancellation would
      * turn h away */
     float h_z = fma(1.0f - u.y, fma(k, w.z, 1.0f), (1.0f - k) * w.z);
@@ -42,8 +42,8 @@ TRIAD_FUNCTION float3 ggx_sample(float3 wo, float alpha, float stretch, float k,
     float r = math_sqrt((1.0f + w.z - h_z) * one_plus_z);
     float s, c;
     math_sincos_turns(u.x, &s, &c);
-    float3 h = (float3)(alpha * fma(r, c, w.x), alpha * fma(r, s, w.y), h_z);
-    return math_normalize(h);
+    Vec3 h = vec3_make(alpha * fma(r, c, w.x), alpha * fma(r, s, w.y), h_z);
+    return vec3_normalize(h);
 }
 
 /* Density over solid angle of the reflection of wo about ggx_sample's normal, from d = D(h): the factor 1 /

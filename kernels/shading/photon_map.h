@@ -17,7 +17,7 @@
 
 /* A unit vector in 2 * `bits` bits: octahedral (Cigolle et al. 2014, "A Survey of Efficient Representations
  * for Independent Unit Vectors"). */
-TRIAD_FUNCTION uint photon_pack_direction(float3 d, uint bits) {
+TRIAD_FUNCTION uint photon_pack_direction(Vec3 d, uint bits) {
     const float scale = 1.0f / (fabs(d.x) + fabs(d.y) + fabs(d.z));
     float x = d.x * scale, y = d.y * scale;
     if (d.z < 0.0f) {
@@ -26,21 +26,20 @@ TRIAD_FUNCTION uint photon_pack_direction(float3 d, uint bits) {
         x = folded;
     }
     const float most = (float)((1u << bits) - 1u);
-    return convert_uint(fma(fma(x, 0.5f, 0.5f), most, 0.5f)) |
-           convert_uint(fma(fma(y, 0.5f, 0.5f), most, 0.5f)) << bits;
+    return (uint)fma(fma(x, 0.5f, 0.5f), most, 0.5f) | (uint)fma(fma(y, 0.5f, 0.5f), most, 0.5f) << bits;
 }
-TRIAD_FUNCTION float3 photon_unpack_direction(uint packed, uint bits) {
+TRIAD_FUNCTION Vec3 photon_unpack_direction(uint packed, uint bits) {
     const uint most = (1u << bits) - 1u;
     const float scale = 2.0f / (float)most;
-    float x = fma(convert_float(packed & most), scale, -1.0f),
-          y = fma(convert_float((packed >> bits) & most), scale, -1.0f);
+    float x = fma((float)(packed & most), scale, -1.0f),
+          y = fma((float)((packed >> bits) & most), scale, -1.0f);
     const float z = 1.0f - fabs(x) - fabs(y);
     if (z < 0.0f) {
         const float unfolded = copysign(1.0f - fabs(y), x);
         y = copysign(1.0f - fabs(x), y);
         x = unfolded;
     }
-    return math_normalize((float3)(x, y, z));
+    return vec3_normalize(vec3_make(x, y, z));
 }
 
 /* Edges of a photon's way, as they are kept: more are as many. */
@@ -49,43 +48,48 @@ TRIAD_FUNCTION float3 photon_unpack_direction(uint packed, uint bits) {
 
 /* from: the direction that it came from; normal: of the surface, on that side; edges of its way; caustic: by
  * mirrors and glass alone, at least one; wavelength in nm or 0. */
-TRIAD_FUNCTION Photon photon_make(float3 position, float3 power, float3 from, float3 normal, uint edges,
-                                  int caustic, float wavelength) {
+TRIAD_FUNCTION Photon photon_make(Vec3 position, Vec3 power, Vec3 from, Vec3 normal, uint edges, int caustic,
+                                  float wavelength) {
     Photon p;
     p.position[0] = position.x, p.position[1] = position.y, p.position[2] = position.z;
     p.power[0] = power.x, p.power[1] = power.y, p.power[2] = power.z;
     p.direction = photon_pack_direction(from, 12u) << 8 | (caustic ? PHOTON_BY_MIRRORS_AND_GLASS : 0u) |
-                  min(edges, PHOTON_EDGES);
+                  math_min_uint(edges, PHOTON_EDGES);
     p.normal = photon_pack_direction(normal, 8u) << 16;
     if (wavelength > 0.0f)
-        p.normal |= convert_uint(
-            fma(clamp(wavelength - SPECTRUM_FIRST, 0.0f, (float)(SPECTRUM_ROWS - 1) * SPECTRUM_STEP),
-                1.0f / PHOTON_WAVELENGTH_STEP, 1.5f));
+        p.normal |= (uint)(fma(
+            math_clamp(wavelength - SPECTRUM_FIRST, 0.0f, (float)(SPECTRUM_ROWS - 1) * SPECTRUM_STEP),
+            1.0f / PHOTON_WAVELENGTH_STEP, 1.5f));
     return p;
 }
-TRIAD_FUNCTION float3 photon_from(const Photon* p) { return photon_unpack_direction(p->direction >> 8, 12u); }
-TRIAD_FUNCTION float3 photon_normal(const Photon* p) { return photon_unpack_direction(p->normal >> 16, 8u); }
+TRIAD_FUNCTION Vec3 photon_from(const Photon* p) { return photon_unpack_direction(p->direction >> 8, 12u); }
+TRIAD_FUNCTION Vec3 photon_normal(const Photon* p) { return photon_unpack_direction(p->normal >> 16, 8u); }
 TRIAD_FUNCTION uint photon_edges(const Photon* p) { return p->direction & PHOTON_EDGES; }
 TRIAD_FUNCTION int photon_is_caustic(const Photon* p) {
     return (p->direction & PHOTON_BY_MIRRORS_AND_GLASS) != 0u;
 }
 TRIAD_FUNCTION float photon_wavelength(const Photon* p) {
     const uint step = p->normal & 0xffffu;
-    return step == 0u ? 0.0f : fma(convert_float(step - 1u), PHOTON_WAVELENGTH_STEP, SPECTRUM_FIRST);
+    return step == 0u ? 0.0f : fma((float)(step - 1u), PHOTON_WAVELENGTH_STEP, SPECTRUM_FIRST);
 }
 
 /* ---- The grid ---- */
 
-/* Within +-2^30, whatever p is: loops over cells can count beyond. */
-TRIAD_FUNCTION int3 photon_cell(const PhotonMap* map, float3 p) {
-    return clamp(convert_int3_sat(floor(p * map->cells_per_unit)), (int3)(-0x40000000), (int3)(0x40000000));
+/* Within +-2^30, whatever x is: loops over cells can count beyond. */
+TRIAD_FUNCTION int photon_cell_along(float x) {
+    return math_clamp_int(convert_int_sat(floor(x)), -0x40000000, 0x40000000);
+}
+TRIAD_FUNCTION IVec3 photon_cell(const PhotonMap* map, Vec3 p) {
+    const Vec3 cell = vec3_scale(p, map->cells_per_unit);
+    return ivec3_make(photon_cell_along(cell.x), photon_cell_along(cell.y), photon_cell_along(cell.z));
 }
 /* The bucket of a cell. The eight cells of any 2 x 2 x 2 block have eight buckets: the low bits tell them
  * apart, and none is searched twice. The hash is Teschner et al.'s (2003). */
-TRIAD_FUNCTION uint photon_bucket(const PhotonMap* map, int3 cell) {
-    const uint3 c = as_uint3(cell), block = as_uint3(cell >> 1);
-    const uint hash = block.x * 73856093u ^ block.y * 19349663u ^ block.z * 83492791u;
-    return (hash << 3 | (c.z & 1u) << 2 | (c.y & 1u) << 1 | (c.x & 1u)) & map->bucket_mask;
+TRIAD_FUNCTION uint photon_bucket(const PhotonMap* map, IVec3 cell) {
+    const uint hash =
+        (uint)(cell.x >> 1) * 73856093u ^ (uint)(cell.y >> 1) * 19349663u ^ (uint)(cell.z >> 1) * 83492791u;
+    const uint within = ((uint)cell.z & 1u) << 2 | ((uint)cell.y & 1u) << 1 | ((uint)cell.x & 1u);
+    return (hash << 3 | within) & map->bucket_mask;
 }
 
 /* ---- What paths find in it: photons carry RGB or one wavelength, as they do ---- */
@@ -99,8 +103,8 @@ TRIAD_FUNCTION uint photon_bucket(const PhotonMap* map, int3 cell) {
 #define PHOTON_INDIRECT 2u /* that were reflected or refracted at all */
 
 typedef struct PhotonQuery {
-    float3 position, normal; /* of the surface, on the side of the path */
-    uint most_edges;         /* of a photon's way; 0: no limit */
+    Vec3 position, normal; /* of the surface, on the side of the path */
+    uint most_edges;       /* of a photon's way; 0: no limit */
     uint which;
     float radius;     /* at most the map's */
     float wavelength; /* of the path, in nm; 0: all together */
@@ -110,36 +114,36 @@ typedef struct PhotonQuery {
  * Epanechnikov's. */
 TRIAD_FUNCTION void photon_add(const Scene* scene, const PhotonMap* map, const PhotonQuery* query,
                                const VertexBsdf* v, global const Photon* stored, long* sums) {
-    const float3 off = vload3(0, stored->position) - query->position;
-    const float distance2 = math_dot(off, off) * (1.0f / (query->radius * query->radius));
+    const Vec3 off = vec3_sub(VEC3_OF(stored->position), query->position);
+    const float distance2 = vec3_dot(off, off) * (1.0f / (query->radius * query->radius));
     if (!(distance2 < 1.0f)) return;
     const Photon photon = *stored;
-    const float3 normal = photon_normal(&photon);
-    if (!(fabs(math_dot(normal, query->normal)) > PHOTON_SAME_SURFACE &&
-          fabs(math_dot(off, query->normal)) < PHOTON_SAME_HEIGHT * query->radius))
+    const Vec3 normal = photon_normal(&photon);
+    if (!(fabs(vec3_dot(normal, query->normal)) > PHOTON_SAME_SURFACE &&
+          fabs(vec3_dot(off, query->normal)) < PHOTON_SAME_HEIGHT * query->radius))
         return;
     if (query->which != PHOTON_ANY &&
         !(query->which == PHOTON_CAUSTIC ? photon_is_caustic(&photon) : photon_edges(&photon) > 1u))
         return;
     if (query->most_edges != 0u && photon_edges(&photon) > query->most_edges) return;
-    float3 power =
-        vload3(0, photon.power) * (fma(-2.0f, distance2, 2.0f) / (MATH_PI * math_square(query->radius)));
+    Vec3 power = vec3_scale(VEC3_OF(photon.power),
+                            fma(-2.0f, distance2, 2.0f) / (MATH_PI * math_square(query->radius)));
 #if TRIAD_DISPERSION
     const float wavelength = photon_wavelength(&photon);
     if (wavelength > 0.0f && query->wavelength > 0.0f) {
         if (!(fabs(wavelength - query->wavelength) < map->wavelengths)) return;
-        power *= 0.5f / map->wavelengths;
+        power = vec3_scale(power, 0.5f / map->wavelengths);
     } else if (wavelength > 0.0f) {
-        power *= spectrum_filter(scene->spectrum, wavelength);
+        power = vec3_mul(power, spectrum_filter(scene->spectrum, wavelength));
     }
 #endif
-    const float3 from = photon_from(&photon);
-    const float3 wi = frame_to_local(&v->frame, from);
-    const float lit = math_dot(normal, query->normal) > 0.0f ? 1.0f : -1.0f;
+    const Vec3 from = photon_from(&photon);
+    const Vec3 wi = frame_to_local(&v->frame, from);
+    const float lit = vec3_dot(normal, query->normal) > 0.0f ? 1.0f : -1.0f;
     if (!(wi.z * lit > 0.0f)) return; /* light must not go through by the shading normal */
     float pdf;
-    const float3 value = bsdf_eval(&v->bsdf, v->wo, wi, &pdf) * power;
-    if (!film_is_finite((float4)(value, 0.0f))) return;
+    const Vec3 value = vec3_mul(bsdf_eval(&v->bsdf, v->wo, wi, &pdf), power);
+    if (!film_is_finite(vec3_with(value, 0.0f))) return;
     uint saturated = 0u;
     sums[0] = add_sat(sums[0], film_fixed(value.x, scene->frame->quanta, &saturated));
     sums[1] = add_sat(sums[1], film_fixed(value.y, scene->frame->quanta, &saturated));
@@ -147,22 +151,24 @@ TRIAD_FUNCTION void photon_add(const Scene* scene, const PhotonMap* map, const P
 }
 
 /* Radiance that the photons around a point send along the path. */
-TRIAD_FUNCTION_ONCE float3 photon_gather(const Scene* scene, const PhotonQuery* query, const VertexBsdf* v) {
+TRIAD_FUNCTION_ONCE Vec3 photon_gather(const Scene* scene, const PhotonQuery* query, const VertexBsdf* v) {
     const PhotonMap map = *scene->photon_map;
+    const Vec3 reach = vec3_splat(query->radius);
     /* two cells along each axis at most, where float no longer tells cells apart too */
-    const int3 low = photon_cell(&map, query->position - query->radius),
-               high = min(photon_cell(&map, query->position + query->radius), low + 1);
+    const IVec3 low = photon_cell(&map, vec3_sub(query->position, reach)),
+                end = photon_cell(&map, vec3_add(query->position, reach));
+    const IVec3 high = ivec3_make(math_min_int(end.x, low.x + 1), math_min_int(end.y, low.y + 1),
+                                  math_min_int(end.z, low.z + 1));
     long sums[3] = {0, 0, 0};
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
             for (int x = low.x; x <= high.x; ++x) {
-                const uint bucket = photon_bucket(&map, (int3)(x, y, z));
+                const uint bucket = photon_bucket(&map, ivec3_make(x, y, z));
                 const uint end = scene->photon_ends[bucket];
                 for (uint i = bucket == 0u ? 0u : scene->photon_ends[bucket - 1u]; i < end; ++i)
                     photon_add(scene, &map, query, v, scene->photons + i, sums);
             }
-    return (float3)(convert_float(sums[0]), convert_float(sums[1]), convert_float(sums[2])) *
-           (1.0f / scene->frame->quanta);
+    return vec3_scale(vec3_make((float)sums[0], (float)sums[1], (float)sums[2]), 1.0f / scene->frame->quanta);
 }
 
 #endif

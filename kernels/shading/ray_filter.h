@@ -3,7 +3,7 @@
 #ifndef TRIAD_SHADING_RAY_FILTER_H
 #define TRIAD_SHADING_RAY_FILTER_H
 
-#include "common/language.h"
+#include "common/vector.h"
 
 /* Which of `size` intervals, whose upper bounds rise to 1, holds *u in [0, 1); *u becomes its place in it. */
 TRIAD_FUNCTION uint ray_filter_find(global const float* bounds, uint size, float* u) {
@@ -18,8 +18,8 @@ TRIAD_FUNCTION uint ray_filter_find(global const float* bounds, uint size, float
 /* Where a ray starts, in pixels from the upper left corner of its pixel (x, y) of the full picture, and what
  * its R, G, B count. A table: first tap across and down, bounds of rows, bounds of columns [row], weights
  * [row][column][R, G, B]. */
-TRIAD_FUNCTION float2 ray_filter_sample(const Frame* frame, global const float* tables, uint x, uint y,
-                                        uint bin, float2 u, float3* weight) {
+TRIAD_FUNCTION Vec2 ray_filter_sample(const Frame* frame, global const float* tables, uint x, uint y,
+                                      uint bin, Vec2 u, Vec3* weight) {
     const RayFilterShape shape = frame->ray_filter;
     const uint of_cell = y % shape.cell[1] * shape.cell[0] + x % shape.cell[0];
     global const float* table =
@@ -29,9 +29,9 @@ TRIAD_FUNCTION float2 ray_filter_sample(const Frame* frame, global const float* 
     float across = u.x, down = u.y;
     const uint row = ray_filter_find(rows, shape.height, &down);
     const uint column = ray_filter_find(columns + row * shape.width, shape.width, &across);
-    *weight = vload3(row * shape.width + column, columns + shape.height * shape.width);
-    return (float2)((table[0] + (float)column + across) / (float)shape.taps[0],
-                    (table[1] + (float)row + down) / (float)shape.taps[1]);
+    *weight = vec3_load(columns + shape.height * shape.width, row * shape.width + column);
+    return vec2_make((table[0] + (float)column + across) / (float)shape.taps[0],
+                     (table[1] + (float)row + down) / (float)shape.taps[1]);
 }
 
 #endif

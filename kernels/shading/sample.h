@@ -55,11 +55,11 @@ TRIAD_FUNCTION SampleName sample_name(const Frame* frame, uint pixel, ulong s) {
 
 /* Of what comes along a ray, in R, G, B and alpha: what counts for the film. Set only where TRIAD_RAY_STARTS.
  */
-typedef float4 SampleWeight;
+typedef Vec4 SampleWeight;
 
-TRIAD_FUNCTION float4 sample_weighted(float4 value, SampleWeight weight) {
+TRIAD_FUNCTION Vec4 sample_weighted(Vec4 value, SampleWeight weight) {
 #if TRIAD_RAY_STARTS
-    return value * weight;
+    return vec4_mul(value, weight);
 #else
     (void)weight;
     return value;
@@ -69,15 +69,15 @@ TRIAD_FUNCTION float4 sample_weighted(float4 value, SampleWeight weight) {
 TRIAD_FUNCTION Ray sample_camera_ray(const Frame* frame, global const float* ray_filter,
                                      const SampleName* name, uint x, uint y, SampleWeight* weight) {
     const SamplerBlock u = sampler_block(&name->position, 0u);
-    float2 at = (float2)(random_float(u.x.s0), random_float(u.y.s0));
+    Vec2 at = random_point(u.set[0]);
     Camera camera = frame->camera;
-    *weight = (SampleWeight)(1.0f);
+    *weight = vec4_splat(1.0f);
 #if TRIAD_RAY_STARTS
     if (frame->ray_start == RAY_START_FILTER) {
-        float3 counts;
+        Vec3 counts;
         at = ray_filter_sample(frame, ray_filter, frame->crop[0] + x, frame->crop[1] + y, name->bin, at,
                                &counts);
-        *weight = (float4)(counts, math_average(counts));
+        *weight = vec3_with(counts, vec3_average(counts));
     } else
 #endif
     {
@@ -86,12 +86,12 @@ TRIAD_FUNCTION Ray sample_camera_ray(const Frame* frame, global const float* ray
         at.y = (at.y + (float)(name->bin / frame->bins[0])) / (float)frame->bins[1];
 #endif
     }
-    float2 position = (float2)((float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y);
+    Vec2 position = vec2_make((float)(frame->crop[0] + x) + at.x, (float)(frame->crop[1] + y) + at.y);
 #if TRIAD_RAY_STARTS
     if (frame->ray_start == RAY_START_CENTRE) {
         /* The centre of a pixel of the picture whose pixels are the bins: the same bits as of that picture.
          */
-        const uint2 bins = (uint2)(frame->bins[0], frame->bins[1]);
+        const UVec2 bins = uvec2_make(frame->bins[0], frame->bins[1]);
         position.x = (float)((frame->crop[0] + x) * bins.x + name->bin % bins.x) + 0.5f;
         position.y = (float)((frame->crop[1] + y) * bins.y + name->bin / bins.x) + 0.5f;
         camera.pixels[0] *= (float)bins.x, camera.pixels[1] *= (float)bins.y;
@@ -101,7 +101,7 @@ TRIAD_FUNCTION Ray sample_camera_ray(const Frame* frame, global const float* ray
 #if TRIAD_LENS
                       sampler_2d(&name->path, 1u)
 #else
-                      (float2)(0.0f)
+                      vec2_splat(0.0f)
 #endif
     );
 }

@@ -6,8 +6,8 @@
 #include "shading/surface.h"
 
 /* A ray that leaves a surface to the side of `normal`, and never hits the triangle that it leaves. */
-TRIAD_FUNCTION Ray vertex_spawn(const Surface* s, float3 normal, const Hit* hit, float3 direction) {
-    const float3 origin = s->start + normal * s->offset;
+TRIAD_FUNCTION Ray vertex_spawn(const Surface* s, Vec3 normal, const Hit* hit, Vec3 direction) {
+    const Vec3 origin = vec3_add_scaled(s->start, normal, s->offset);
     Ray ray;
     ray.origin[0] = origin.x, ray.origin[1] = origin.y, ray.origin[2] = origin.z;
     ray.direction[0] = direction.x, ray.direction[1] = direction.y, ray.direction[2] = direction.z;
@@ -18,9 +18,9 @@ TRIAD_FUNCTION Ray vertex_spawn(const Surface* s, float3 normal, const Hit* hit,
 }
 
 /* The same towards a point, short of it by a rounding error. */
-TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, float3 normal, const Hit* hit, float3 target) {
-    const float3 origin = s->start + normal * s->offset;
-    Ray ray = vertex_spawn(s, normal, hit, target - origin);
+TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, Vec3 normal, const Hit* hit, Vec3 target) {
+    const Vec3 origin = vec3_add_scaled(s->start, normal, s->offset);
+    Ray ray = vertex_spawn(s, normal, hit, vec3_sub(target, origin));
     ray.t_max = 1.0f - 0x1.0p-16f;
     return ray;
 }
@@ -30,13 +30,15 @@ TRIAD_FUNCTION Ray vertex_spawn_to(const Surface* s, float3 normal, const Hit* h
  * Budge 2002, "Simple Nested Dielectrics in Ray Traced Images"); the surface of another is passed as if it
  * were not there. So a body within another refracts against that one, and bodies that overlap meet without
  * air between them. */
-typedef uint4 Bodies;
+typedef UVec4 Bodies;
+
+TRIAD_FUNCTION Bodies bodies_none(void) { return uvec4_make(TRIAD_NONE, TRIAD_NONE, TRIAD_NONE, TRIAD_NONE); }
 
 #if TRIAD_TRANSMISSION
 /* What a body lets through over a distance (Beer-Lambert). */
-TRIAD_FUNCTION float3 vertex_transmittance(global const Material* body, float distance) {
-    return (float3)(math_exp(-body->absorption[0] * distance), math_exp(-body->absorption[1] * distance),
-                    math_exp(-body->absorption[2] * distance));
+TRIAD_FUNCTION Vec3 vertex_transmittance(global const Material* body, float distance) {
+    return vec3_make(math_exp(-body->absorption[0] * distance), math_exp(-body->absorption[1] * distance),
+                     math_exp(-body->absorption[2] * distance));
 }
 
 #if TRIAD_PRIORITIES
@@ -47,28 +49,29 @@ TRIAD_FUNCTION int bodies_before(const Scene* scene, uint a, uint b) {
 
 TRIAD_FUNCTION Bodies bodies_enter(const Scene* scene, Bodies b, uint body) {
 #if TRIAD_PRIORITIES
-    if (bodies_before(scene, b.s0, body)) {
-        if (!bodies_before(scene, b.s1, body)) return (uint4)(b.s0, body, b.s12);
-        return bodies_before(scene, b.s2, body) ? (uint4)(b.s012, body) : (uint4)(b.s01, body, b.s2);
+    if (bodies_before(scene, b.x, body)) {
+        if (!bodies_before(scene, b.y, body)) return uvec4_make(b.x, body, b.y, b.z);
+        return bodies_before(scene, b.z, body) ? uvec4_make(b.x, b.y, b.z, body)
+                                               : uvec4_make(b.x, b.y, body, b.z);
     }
 #else
     (void)scene;
 #endif
-    return (uint4)(body, b.s012);
+    return uvec4_make(body, b.x, b.y, b.z);
 }
 
 TRIAD_FUNCTION Bodies bodies_leave(Bodies b, uint body) {
-    if (b.s0 == body) return (uint4)(b.s123, TRIAD_NONE);
-    if (b.s1 == body) return (uint4)(b.s0, b.s23, TRIAD_NONE);
-    if (b.s2 == body) return (uint4)(b.s01, b.s3, TRIAD_NONE);
-    if (b.s3 == body) return (uint4)(b.s012, TRIAD_NONE);
+    if (b.x == body) return uvec4_make(b.y, b.z, b.w, TRIAD_NONE);
+    if (b.y == body) return uvec4_make(b.x, b.z, b.w, TRIAD_NONE);
+    if (b.z == body) return uvec4_make(b.x, b.y, b.w, TRIAD_NONE);
+    if (b.w == body) return uvec4_make(b.x, b.y, b.z, TRIAD_NONE);
     return b;
 }
 
 /* With the body whose inner side is seen: that is proof of where the path runs, wherever it was thought to
  * be. */
 TRIAD_FUNCTION Bodies bodies_proved(const Scene* scene, Bodies b, uint inner) {
-    const int known = b.s0 == inner || b.s1 == inner || b.s2 == inner || b.s3 == inner;
+    const int known = b.x == inner || b.y == inner || b.z == inner || b.w == inner;
     return inner == TRIAD_NONE || known ? b : bodies_enter(scene, b, inner);
 }
 
@@ -80,8 +83,8 @@ TRIAD_FUNCTION Bodies bodies_beyond(const Scene* scene, Bodies b, uint inner, ui
 
 /* The index of refraction of what fills the space, at a wavelength in nm (0: all of them, at the d line). */
 TRIAD_FUNCTION float bodies_index(const Scene* scene, Bodies b, float wavelength) {
-    if (b.s0 == TRIAD_NONE) return 1.0f;
-    global const Material* body = scene->materials + b.s0;
+    if (b.x == TRIAD_NONE) return 1.0f;
+    global const Material* body = scene->materials + b.x;
 #if TRIAD_DISPERSION
     if (wavelength > 0.0f && body->dispersion != TRIAD_NONE)
         return spectrum_index(scene->indices, body->dispersion, wavelength);
@@ -93,7 +96,7 @@ TRIAD_FUNCTION float bodies_index(const Scene* scene, Bodies b, float wavelength
 
 #if TRIAD_DISPERSION
 TRIAD_FUNCTION int bodies_disperse(const Scene* scene, Bodies b) {
-    return b.s0 != TRIAD_NONE && scene->materials[b.s0].dispersion != TRIAD_NONE;
+    return b.x != TRIAD_NONE && scene->materials[b.x].dispersion != TRIAD_NONE;
 }
 #endif
 #endif
@@ -133,24 +136,24 @@ TRIAD_FUNCTION int vertex_disperses(const Scene* scene, const Surface* s, const 
  * far that the mirror direction of wo leaves the surface, else they would be black where a normal map or
  * interpolation tilts it further. With N = (sqrt(1 - w), 0, sqrt(w)) and R.z = t, w is a root of 2 a w^2 - b
  * w + c / 2 = 0: Cycles' ensure_valid_specular_reflection. */
-TRIAD_FUNCTION float3 vertex_shading_normal(float3 ns, float3 ng, float3 wo, float mirror) {
+TRIAD_FUNCTION Vec3 vertex_shading_normal(Vec3 ns, Vec3 ng, Vec3 wo, float mirror) {
     /* a normal that hardly faces wo is turned until it does, but never farther than the surface itself */
-    const float facing = math_dot(ns, wo), least = math_min(0.02f, math_dot(ng, wo));
-    float3 n = ns;
+    const float facing = vec3_dot(ns, wo), least = math_min(0.02f, vec3_dot(ng, wo));
+    Vec3 n = ns;
     if (facing < least) {
-        n = normalize_or(ns + wo * (least - facing), ng);
-        if (!(math_dot(n, wo) > 0.0f)) return ng;
+        n = normalize_or(vec3_add_scaled(ns, wo, least - facing), ng);
+        if (!(vec3_dot(n, wo) > 0.0f)) return ng;
     }
-    const float cosine = math_dot(n, ng), z = math_dot(wo, ng);
+    const float cosine = vec3_dot(n, ng), z = vec3_dot(wo, ng);
     const float t = math_min(0.9f * z, 0.01f); /* never asks for more than the geometric normal gives */
-    if (mirror == 0.0f || fma(2.0f * math_dot(n, wo), cosine, -z) >= t) return n;
-    const float3 axis = normalize_or(n - ng * cosine, (float3)(0.0f));
-    const float x = math_dot(wo, axis);
+    if (mirror == 0.0f || fma(2.0f * vec3_dot(n, wo), cosine, -z) >= t) return n;
+    const Vec3 axis = normalize_or(vec3_add_scaled(n, ng, -cosine), vec3_splat(0.0f));
+    const float x = vec3_dot(wo, axis);
     const float a = fma(x, x, z * z), b = 2.0f * fma(z, t, a), c = math_square(t + z);
     const float root = math_sqrt(fma(b, b, -4.0f * a * c));
-    const float w = clamp(0.25f * (b + (x < 0.0f ? root : -root)) / a, 0.0f, 1.0f);
-    const float3 turned = axis * sqrt(1.0f - w) + ng * sqrt(w);
-    return normalize_or(n + (turned - n) * mirror, ng);
+    const float w = math_clamp(0.25f * (b + (x < 0.0f ? root : -root)) / a, 0.0f, 1.0f);
+    const Vec3 turned = vec3_add_scaled(vec3_scale(axis, sqrt(1.0f - w)), ng, sqrt(w));
+    return normalize_or(vec3_blend(n, turned, mirror), ng);
 }
 
 #endif

@@ -8,13 +8,13 @@
 
 typedef struct VertexBsdf {
     ShadingFrame frame; /* z is the shading normal on wo's side */
-    float3 wo;          /* in the frame */
+    Vec3 wo;            /* in the frame */
     Bsdf bsdf;
 } VertexBsdf;
 
 /* ng: the geometric normal on wo's side. back: that is the inner side of the surface. bodies and beyond: what
  * the path is in on wo's side and on the other. wavelength: in nm, or 0 for all of them together. */
-TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, float3 wo, float3 ng, int back,
+TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, Vec3 wo, Vec3 ng, int back,
                                       Bodies bodies, Bodies beyond, float wavelength) {
     global const Material* material = scene->materials + s->material;
     const uint solid = material->flags & MATERIAL_SOLID;
@@ -44,17 +44,17 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, floa
     (void)bodies, (void)beyond, (void)wavelength;
 #endif
 #if TRIAD_TRANSMISSION && TRIAD_PRIORITIES
-    if (solid && bodies.s0 == beyond.s0 && bodies_before(scene, bodies.s0, s->material)) {
+    if (solid && bodies.x == beyond.x && bodies_before(scene, bodies.x, s->material)) {
         /* within a body of higher priority there is no surface: equal indices on both sides, and clear */
-        input.base_colour = (Colour)(1.0f);
+        input.base_colour = colour_splat(1.0f);
         input.metallic = 0.0f;
         input.transmission = 1.0f;
     }
 #endif
     const float mirror = fma(1.0f - s->metallic, s->transmission, s->metallic);
     VertexBsdf v;
-    v.frame =
-        frame_make(vertex_shading_normal(back ? -s->shading_normal : s->shading_normal, ng, wo, mirror));
+    v.frame = frame_make(
+        vertex_shading_normal(back ? vec3_negate(s->shading_normal) : s->shading_normal, ng, wo, mirror));
     v.wo = frame_to_local(&v.frame, wo);
     v.bsdf = bsdf_make(&input, v.wo, scene->albedo);
     return v;

@@ -33,17 +33,17 @@ TRIAD_FUNCTION BinRun bin_run(global const DisplaySlab* slab, uint item) {
 
 /* Column of bins of the picture that lane `lane` of the run takes: its pixel, and the bin of that. Divisions
  * only beyond the edges. */
-TRIAD_FUNCTION uint2 bin_column(global const DisplaySlab* slab, const BinRun* run, uint lane) {
+TRIAD_FUNCTION UVec2 bin_column(global const DisplaySlab* slab, const BinRun* run, uint lane) {
     const int cell = (int)(run->cell + lane) - (int)slab->left, bins = (int)slab->bins[0];
     const int column = cell * (int)slab->cell_x * bins + (int)run->column;
     if (column >= 0 && column < (int)slab->columns)
-        return (uint2)((uint)cell * slab->cell_x + run->pixel_x, run->bin_x);
+        return uvec2_make((uint)cell * slab->cell_x + run->pixel_x, run->bin_x);
     const uint inside = display_reflect(column, slab->columns);
-    return (uint2)(inside / (uint)bins, inside % (uint)bins);
+    return uvec2_make(inside / (uint)bins, inside % (uint)bins);
 }
 
 TRIAD_FUNCTION void bin_store(global const DisplaySlab* slab, global float* planes, const BinRun* run,
-                              uint lane, float4 v) {
+                              uint lane, Vec4 v) {
     const size_t channel = (size_t)slab->cell_x * slab->bins[0] * slab->plane;
     global float* to = planes + run->at + lane;
     to[0] = v.x;
@@ -54,13 +54,13 @@ TRIAD_FUNCTION void bin_store(global const DisplaySlab* slab, global float* plan
 
 /* A bin of a film's pixel, as radiance times exposure, and alpha. sums: [pixel][bin][R, G, B, alpha] in units
  * of slab->unit; samples: per pixel, over all bins, spread evenly over them. */
-TRIAD_FUNCTION float4 film_bin(global const DisplaySlab* slab, global const long* sums,
-                               global const uint* samples, size_t pixel, uint bin) {
+TRIAD_FUNCTION Vec4 film_bin(global const DisplaySlab* slab, global const long* sums,
+                             global const uint* samples, size_t pixel, uint bin) {
     const uint bins = slab->bins[0] * slab->bins[1], count = samples[pixel];
-    const float unit = count > 0u ? slab->unit * convert_float(bins) / convert_float(count) : 0.0f;
-    float4 v = convert_float4(vload4(pixel * bins + bin, sums)) * unit;
-    v.xyz *= slab->exposure;
-    return v;
+    const float unit = count > 0u ? slab->unit * (float)bins / (float)count : 0.0f;
+    sums += 4 * (pixel * bins + bin);
+    const Vec3 v = vec3_make((float)sums[0] * unit, (float)sums[1] * unit, (float)sums[2] * unit);
+    return vec3_with(vec3_scale(v, slab->exposure), (float)sums[3] * unit);
 }
 
 kernel void map_film(global const DisplaySlab* slab, global const long* sums, global const uint* samples,
@@ -71,7 +71,7 @@ kernel void map_film(global const DisplaySlab* slab, global const long* sums, gl
     const size_t row = (size_t)(run.source_row / slab->bins[1] - slab->source_row) * slab->width;
     const uint first_bin = run.source_row % slab->bins[1] * slab->bins[0];
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
-        const uint2 column = bin_column(slab, &run, lane);
+        const UVec2 column = bin_column(slab, &run, lane);
         bin_store(slab, planes, &run, lane,
                   display_of_bin(slab, film_bin(slab, sums, samples, row + column.x, first_bin + column.y)));
     }
@@ -87,7 +87,7 @@ kernel void map_noisy_film(global const DisplaySlab* slab, global const long* su
     const size_t row = (size_t)(run.source_row / slab->bins[1] - slab->source_row) * slab->width;
     const uint first_bin = run.source_row % slab->bins[1] * slab->bins[0];
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
-        const uint2 column = bin_column(slab, &run, lane);
+        const UVec2 column = bin_column(slab, &run, lane);
         const size_t pixel = row + column.x;
         bin_store(slab, planes, &run, lane,
                   noise_display(slab, film_bin(slab, sums, samples, pixel, first_bin + column.y),
@@ -100,9 +100,9 @@ kernel void average_film(global const DisplaySlab* slab, global const long* sums
                          global float* means, uint rows) {
     const uint pixel = (uint)get_global_id(0), bins = slab->bins[0] * slab->bins[1];
     if (pixel >= rows * slab->width) return;
-    float4 mean = (float4)(0.0f);
-    for (uint bin = 0u; bin < bins; ++bin) mean += film_bin(slab, sums, samples, pixel, bin);
-    vstore4(mean * (1.0f / convert_float(bins)), 0, means + (size_t)pixel * NOISE_RECORD);
+    Vec4 mean = vec4_splat(0.0f);
+    for (uint bin = 0u; bin < bins; ++bin) mean = vec4_add(mean, film_bin(slab, sums, samples, pixel, bin));
+    vec4_store(vec4_scale(mean, 1.0f / (float)bins), means + (size_t)pixel * NOISE_RECORD, 0);
 }
 
 /* What else noise_display needs to know of them. A pixel's bins and those around it tell noise from
@@ -124,9 +124,10 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
         for (int u = -1; u <= (int)bins_x; ++u) {
             const uint column = display_reflect((int)(x * bins_x) + u, slab->columns);
             const uint row = display_reflect((int)((slab->source_row + y) * bins_y) + v, slab->rows);
-            const uint at = min(row / bins_y - min(slab->source_row, row / bins_y), rows - 1u);
-            const float4 bin = film_bin(slab, sums, samples, (size_t)at * slab->width + column / bins_x,
-                                        row % bins_y * bins_x + column % bins_x);
+            const uint at =
+                math_min_uint(row / bins_y - math_min_uint(slab->source_row, row / bins_y), rows - 1u);
+            const Vec4 bin = film_bin(slab, sums, samples, (size_t)at * slab->width + column / bins_x,
+                                      row % bins_y * bins_x + column % bins_x);
             const float value = noise_value(bin);
             noise_add(&noise, value);
             if (u >= 0) noise_add_pair(&noise, value, left);
@@ -134,34 +135,34 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
             above[u + 1] = left = value;
         }
     }
-    const float rays = convert_float(max(samples[pixel], bins)) / convert_float(bins);
+    const float rays = (float)(samples[pixel] > bins ? samples[pixel] : bins) / (float)bins;
     NoiseSums pixels = {0.0f, 0.0f, 0.0f, 0u, 0u};
-    float4 around = (float4)(0.0f);
+    Vec4 around = vec4_splat(0.0f);
     float halves = 0.0f;
     for (int v = -1; v <= 1; ++v)
         for (int u = -1; u <= 1; ++u) {
             const uint row = display_reflect((int)(slab->source_row + y) + v, slab->height);
-            const uint at = min(row - min(slab->source_row, row), rows - 1u) * slab->width +
-                            display_reflect((int)x + u, slab->width);
-            const float4 mean = vload4(0, means + (size_t)at * NOISE_RECORD);
+            const uint at =
+                math_min_uint(row - math_min_uint(slab->source_row, row), rows - 1u) * slab->width +
+                display_reflect((int)x + u, slab->width);
+            const Vec4 mean = vec4_load(means + (size_t)at * NOISE_RECORD, 0);
             noise_add(&pixels, noise_value(mean));
-            around = fma((float4)(1.0f / 9.0f), mean, around);
+            around = vec4_fma_scale(1.0f / 9.0f, mean, around);
             if (halves_known)
-                halves +=
-                    noise_of_halves(vload3(at, first) * slab->exposure, vload3(at, second) * slab->exposure,
-                                    weights[at], convert_float(bins)) *
-                    (1.0f / 9.0f);
+                halves += noise_of_halves(vec3_scale(vec3_load(first, at), slab->exposure),
+                                          vec3_scale(vec3_load(second, at), slab->exposure), weights[at],
+                                          (float)bins) *
+                          (1.0f / 9.0f);
         }
     global float* to = means + (size_t)pixel * NOISE_RECORD;
     float variance;
     const float share = noise_share(&noise, rays, halves, &variance);
     /* means of bins vary by noise as well, but by the number of bins less */
     const float differ = noise_variance(&pixels),
-                smooth =
-                    differ > 1e-9f ? math_saturate(share * variance / (convert_float(bins) * differ)) : 0.0f;
-    const float4 mean = vload4(0, to), point = fma((float4)(smooth), around - mean, mean);
-    vstore4(point, 1, to);
-    vstore4(display_of_bin(slab, point), 2, to);
+                smooth = differ > 1e-9f ? math_saturate(share * variance / ((float)bins * differ)) : 0.0f;
+    const Vec4 mean = vec4_load(to, 0), point = vec4_mix(mean, around, smooth);
+    vec4_store(point, to, 1);
+    vec4_store(display_of_bin(slab, point), to, 2);
     to[12] = share;
 }
 
@@ -173,12 +174,12 @@ kernel void map_image(global const DisplaySlab* slab, global const float* image,
     const BinRun run = bin_run(slab, item);
     const size_t row = (size_t)(run.source_row - slab->source_row) * slab->columns;
     for (uint lane = 0u; lane < DISPLAY_LANES; ++lane) {
-        const uint2 column = bin_column(slab, &run, lane);
-        float4 v = vload4(row + column.x * slab->bins[0] + column.y, image);
+        const UVec2 column = bin_column(slab, &run, lane);
+        Vec4 v = vec4_load(image, row + column.x * slab->bins[0] + column.y);
         if (slab->encoded)
-            v.xyz = srgb_decode3(v.xyz) * v.w;
+            v = vec3_with(vec3_scale(srgb_decode3(vec4_xyz(v)), v.w), v.w);
         else
-            v.xyz *= slab->exposure;
+            v = vec3_with(vec3_scale(vec4_xyz(v), slab->exposure), v.w);
         bin_store(slab, planes, &run, lane, display_of_bin(slab, v));
     }
 }

@@ -15,32 +15,33 @@ TRIAD_FUNCTION uint display_reflect(int i, uint size) {
 }
 
 /* A display-linear colour, associated with its alpha, on the background that there may be. */
-TRIAD_FUNCTION float4 display_on_background(global const DisplaySlab* slab, float4 v) {
+TRIAD_FUNCTION Vec4 display_on_background(global const DisplaySlab* slab, Vec4 v) {
     if (slab->background[3] == 0.0f) return v;
-    const float3 behind = (float3)(slab->background[0], slab->background[1], slab->background[2]);
-    return (float4)(fma((float3)(1.0f - v.w), behind, v.xyz), 1.0f);
+    const Vec3 behind = VEC3_OF(slab->background);
+    return vec3_with(vec3_fma_scale(1.0f - v.w, behind, vec4_xyz(v)), 1.0f);
 }
 
 /* Tone map and background. */
-TRIAD_FUNCTION float4 display_light(global const DisplaySlab* slab, float4 radiance) {
+TRIAD_FUNCTION Vec4 display_light(global const DisplaySlab* slab, Vec4 radiance) {
     if (slab->encoded) return display_on_background(slab, radiance);
     return display_on_background(slab, tone_map_associated(slab->tone_map, radiance));
 }
 
 /* What the taps are to add up, from the radiance in a bin (encoded sources: display-linear light). */
-TRIAD_FUNCTION float4 display_of_bin(global const DisplaySlab* slab, float4 radiance) {
+TRIAD_FUNCTION Vec4 display_of_bin(global const DisplaySlab* slab, Vec4 radiance) {
     if (slab->order == TONE_PER_PIXEL || slab->order == TONE_NEVER) return radiance;
-    float4 v = display_light(slab, radiance);
-    if (slab->order == TONE_BIN_ENCODED) v.xyz = srgb_encode3(v.xyz);
+    Vec4 v = display_light(slab, radiance);
+    if (slab->order == TONE_BIN_ENCODED) v = vec3_with(srgb_encode3(vec4_xyz(v)), v.w);
     return v;
 }
 
 /* Display-linear light, from what the taps have added up; lobes below zero may have left [0, 1]. */
-TRIAD_FUNCTION float4 display_of_sum(global const DisplaySlab* slab, float4 v) {
+TRIAD_FUNCTION Vec4 display_of_sum(global const DisplaySlab* slab, Vec4 v) {
     v.w = math_saturate(v.w);
     if (slab->order == TONE_PER_PIXEL) return display_light(slab, v);
     if (slab->order == TONE_BIN_ENCODED)
-        v.xyz = srgb_decode3((float3)(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z)));
+        v = vec3_with(srgb_decode3(vec3_make(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z))),
+                      v.w);
     return v;
 }
 

@@ -56,7 +56,9 @@ TRIAD_FUNCTION TapRun tap_run(uint runs, uint rows, uint groups, uint phases, ui
 }
 TRIAD_FUNCTION int tap_has_row(const TapRun* r, uint k) { return r->row + k * r->step < r->rows; }
 /* The k-th row; beyond the last one that again, which may be read. */
-TRIAD_FUNCTION size_t tap_row(const TapRun* r, uint k) { return min(r->row + k * r->step, r->rows - 1u); }
+TRIAD_FUNCTION size_t tap_row(const TapRun* r, uint k) {
+    return math_min_uint(r->row + k * r->step, r->rows - 1u);
+}
 
 /* The tap-th products of all rows. */
 TRIAD_FUNCTION void lanes_add(global const float* const* in, int offset, float weight, Lanes* sums) {
@@ -166,11 +168,11 @@ kernel void gather_drives(global const DisplaySlab* slab, global const float* dr
     const size_t at =
         first + (size_t)(x % slab->cell_x) * plane_floats + (size_t)row * stride + x / slab->cell_x;
     const size_t channel = (size_t)slab->cell_x * plane_floats;
-    const float4 sum = (float4)(drives[at], drives[at + channel], drives[at + 2 * channel],
-                                slab->channels == 4u ? drives[at + 3 * channel] : 1.0f);
-    const float4 v = display_of_sum(slab, sum);
-    vstore4(slab->order == TONE_NEVER
-                ? v
-                : (float4)(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z), v.w),
-            item, display);
+    const Vec4 sum = vec4_make(drives[at], drives[at + channel], drives[at + 2 * channel],
+                               slab->channels == 4u ? drives[at + 3 * channel] : 1.0f);
+    const Vec4 v = display_of_sum(slab, sum);
+    vec4_store(slab->order == TONE_NEVER
+                   ? v
+                   : vec4_make(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z), v.w),
+               display, item);
 }

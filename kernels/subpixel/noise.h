@@ -17,8 +17,8 @@ typedef struct NoiseSums {
 } NoiseSums;
 
 /* A bin's brightness, bent so that a few bright rays do not decide alone. */
-TRIAD_FUNCTION float noise_value(float4 bin) {
-    const float l = math_min(math_max(math_luminance(bin.xyz), 0.0f), TONE_LIMIT);
+TRIAD_FUNCTION float noise_value(Vec4 bin) {
+    const float l = math_min(math_max(vec3_luminance(vec4_xyz(bin)), 0.0f), TONE_LIMIT);
     return l / (1.0f + l);
 }
 TRIAD_FUNCTION void noise_add(NoiseSums* s, float value) {
@@ -32,14 +32,14 @@ TRIAD_FUNCTION void noise_add_pair(NoiseSums* s, float a, float b) {
 }
 
 TRIAD_FUNCTION float noise_variance(const NoiseSums* s) {
-    const float n = convert_float(s->count), mean = s->values / n;
+    const float n = (float)s->count, mean = s->values / n;
     return (s->squares / n - mean * mean) * (n / (n - 1.0f));
 }
 
 /* Variance of one bin of a pixel of `bins`, from that of the pixel's mean, which its halves tell. weight: of
  * HalfMeans (host/scene/film.h). The samples of a pixel even each other out, so that it is rather too low. */
-TRIAD_FUNCTION float noise_of_halves(float3 first, float3 second, float weight, float bins) {
-    const float difference = noise_value((float4)(first, 1.0f)) - noise_value((float4)(second, 1.0f));
+TRIAD_FUNCTION float noise_of_halves(Vec3 first, Vec3 second, float weight, float bins) {
+    const float difference = noise_value(vec3_with(first, 1.0f)) - noise_value(vec3_with(second, 1.0f));
     return bins * math_square(weight * difference);
 }
 
@@ -49,25 +49,25 @@ TRIAD_FUNCTION float noise_of_halves(float3 first, float3 second, float weight, 
  * and Davis 2000), and means of n of them the nth part. Rays much brighter than the bend bring more, which
  * halves show. */
 TRIAD_FUNCTION float noise_share(const NoiseSums* s, float rays, float halves, float* variance) {
-    const float mean = s->values / convert_float(s->count);
+    const float mean = s->values / (float)s->count;
     *variance = noise_variance(s);
-    const float rough = 0.5f * s->differences / convert_float(s->pairs);
+    const float rough = 0.5f * s->differences / (float)s->pairs;
     const float possible = math_max(mean * (1.0f - mean) / rays, halves);
     return *variance > 1e-9f ? math_saturate(rough / *variance) * math_saturate(possible / *variance) : 0.0f;
 }
 
 /* Display-linear light of a bin. `pixel`: its pixel's record. */
-TRIAD_FUNCTION float4 noise_display(global const DisplaySlab* slab, float4 bin, global const float* pixel) {
-    const float4 alone = display_of_bin(slab, bin);
+TRIAD_FUNCTION Vec4 noise_display(global const DisplaySlab* slab, Vec4 bin, global const float* pixel) {
+    const Vec4 alone = display_of_bin(slab, bin);
     const float share = pixel[12];
     if (share == 0.0f) return alone;
-    const float4 mean = vload4(0, pixel), point = vload4(1, pixel), light = vload4(2, pixel);
+    const Vec4 mean = vec4_load(pixel, 0), point = vec4_load(pixel, 1), light = vec4_load(pixel, 2);
     /* Of what differs by noise alone nothing is worth keeping; of a mixture the share of structure. That is
      * told from noise by few bins, and to lose it is worse: hence the square. */
-    const float4 even = fma((float4)(share * share), mean - bin, bin);
-    const float4 ahead = display_of_bin(slab, fma((float4)(NOISE_CHORD), even - point, point));
-    const float4 along = fma((float4)(1.0f / NOISE_CHORD), ahead - light, light);
-    return fma((float4)(share), along - alone, alone);
+    const Vec4 even = vec4_mix(bin, mean, share * share);
+    const Vec4 ahead = display_of_bin(slab, vec4_mix(point, even, NOISE_CHORD));
+    const Vec4 along = vec4_mix(light, ahead, 1.0f / NOISE_CHORD);
+    return vec4_mix(alone, along, share);
 }
 
 #endif

@@ -42,8 +42,8 @@ kernel void filter_places(global const Frame* frame, global const float* tables,
     if (i >= count) return;
     const Frame f = *frame;
     const Sampler s = sampler_make(7u, i, 0u, 0u, 3u);
-    float3 weight;
-    const float2 at = ray_filter_sample(&f, tables, x, y, bin, sampler_2d(&s, 0u), &weight);
+    Vec3 weight;
+    const Vec2 at = ray_filter_sample(&f, tables, x, y, bin, sampler_2d(&s, 0u), &weight);
     out[5 * i] = at.x, out[5 * i + 1] = at.y;
     out[5 * i + 2] = weight.x, out[5 * i + 3] = weight.y, out[5 * i + 4] = weight.z;
 }

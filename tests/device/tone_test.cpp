@@ -67,7 +67,7 @@ const char* const source = R"(#include "common/language.h"
 #include "subpixel/tone_map.h"
 __kernel void map_all(__global const float* radiance, __global float* display, uint count, uint which) {
     const uint i = get_global_id(0);
-    if (i < count) vstore3(tone_map(which, vload3(i, radiance)), i, display);
+    if (i < count) vec3_store(tone_map(which, vec3_load(radiance, i)), display, i);
 }
 )";
 
