@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "device/device.h"
 #include "bench/repetitions.h"
+#include "device/device.h"
 
 namespace triad {
 

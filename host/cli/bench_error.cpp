@@ -7,13 +7,6 @@
 #include <map>
 #include <memory>
 
-#include "report/bench_tables.h"
-#include "cli/command_line.h"
-#include "report/error_report.h"
-#include "cli/experiment.h"
-#include "base/interrupt.h"
-#include "session/prepare.h"
-#include "session/reference_store.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -21,6 +14,7 @@
 #include "bench/error_csv.h"
 #include "bench/error_curves.h"
 #include "bench/error_runs.h"
+#include "cli/command_line.h"
 #include "cli/experiment.h"
 #include "report/bench_tables.h"
 #include "report/error_report.h"

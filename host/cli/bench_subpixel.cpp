@@ -7,19 +7,11 @@
 #include <map>
 #include <memory>
 
-#include "cli/command_line.h"
-#include "cli/compare_perceived.h"
-#include "cli/experiment.h"
-#include "base/interrupt.h"
-#include "session/output.h"
-#include "session/panel_file.h"
-#include "session/prepare.h"
-#include "report/subpixel_report.h"
-#include "cli/suite.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "cli/command_line.h"
 #include "cli/compare_perceived.h"
 #include "cli/experiment.h"
 #include "cli/suite.h"

@@ -4,14 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cli/command_line.h"
-#include "report/error_pictures.h"
-#include "session/output.h"
-#include "session/panel_file.h"
 #include "base/colour.h"
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
+#include "cli/command_line.h"
 #include "panel/perceived.h"
 #include "report/error_pictures.h"
 #include "session/output.h"

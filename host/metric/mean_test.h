@@ -10,7 +10,8 @@ namespace triad {
 
 /// Sums over tiles of what films show and of how uncertain that is.
 struct TileMeans {
-    static constexpr unsigned edge = 16;  ///< of a tile in pixels; those at the right and bottom may be smaller
+    static constexpr unsigned edge =
+        16;  ///< of a tile in pixels; those at the right and bottom may be smaller
     struct Tile {
         double sum = 0;               ///< of the pixels' means
         double variance = 0;          ///< of that sum

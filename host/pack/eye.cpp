@@ -1,7 +1,7 @@
 /// What a packing promises to the eye, and for which other eyes that holds.
-#include <cstdio>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "pack/pack.h"
 #include "pack/refine.h"

@@ -12,7 +12,6 @@
 #include <iterator>
 #include <map>
 
-#include "session/metadata.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "display/resolve.h"

@@ -1,5 +1,7 @@
 // A render that is asked for an error: is that the error it has?
 #include <gtest/gtest.h>
+#include <cstdint>
+#include <vector>
 
 #include <algorithm>
 #include <cmath>

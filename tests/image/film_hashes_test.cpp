@@ -1,6 +1,7 @@
 // Whatever is rebuilt inside, the films of today have the arrays of yesterday, bit for bit: those of
 // film_hashes.txt. Renewed on purpose by tests/image/update.
 #include <gtest/gtest.h>
+#include <cstdio>
 
 #include <cstdlib>
 #include <cstring>
@@ -9,11 +10,11 @@
 #include "../device/device_fixture.h"
 #include "../program.h"
 #include "../unit/temporary_folder.h"
-#include "session/prepare.h"
 #include "film_table.h"
 #include "io/io.h"
 #include "kept_options.h"
 #include "render/renderer.h"
+#include "session/prepare.h"
 
 namespace triad {
 

@@ -2,6 +2,7 @@
 // seeds. Every tile and the whole picture are compared; right pictures are called wrong once in a million
 // runs of all together. Renewed on purpose by tests/image/update.
 #include <gtest/gtest.h>
+#include <cstdio>
 
 #include <cmath>
 #include <fstream>
@@ -9,13 +10,13 @@
 
 #include "../device/device_fixture.h"
 #include "../unit/temporary_folder.h"
-#include "session/prepare.h"
 #include "io/io.h"
 #include "kept_options.h"
 #include "kept_picture.h"
 #include "kernels/types.h"
 #include "metric/statistics.h"
 #include "render/renderer.h"
+#include "session/prepare.h"
 
 namespace triad {
 

@@ -1,5 +1,7 @@
 #pragma once
 /// A small scene with all kinds of noise.
+#include <vector>
+
 #include "../analytic/analytic_scene.h"
 
 namespace triad::analytic {

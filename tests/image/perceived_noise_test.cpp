@@ -1,5 +1,6 @@
 // The noise that an eye sees on a panel, as a render reports it.
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "display/perceived_noise.h"
 #include "lit_room.h"

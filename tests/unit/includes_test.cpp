@@ -1,7 +1,7 @@
 // The walls of docs/architecture.md: includes go down only, and packages stay behind the folder that owns
 // them.
-#include <vector>
 #include <gtest/gtest.h>
+#include <vector>
 
 #include <filesystem>
 #include <fstream>
