@@ -23,6 +23,10 @@ typedef struct Tally {
 TRIAD_FUNCTION Tally tally_start(void) {
     Tally t;
     t.rays = t.not_finite = t.saturated = t.truncated = t.cut_energy = 0u;
+#if TRIAD_RECORD
+    t.path = 0; /* record.cl sets it */
+    t.vertices = 0u;
+#endif
     return t;
 }
 
