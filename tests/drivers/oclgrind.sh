@@ -8,7 +8,7 @@ trap 'rm -rf "$folder"' EXIT
 # Its interpreter knows no optimiser's intrinsics, and takes what an optimiser leaves undefined for a fault. The cache is apart
 # because binaries made without this option would not run.
 status=0
-XDG_CACHE_HOME=$folder oclgrind --build-options -cl-opt-disable --log "$folder/log" "$@" || status=$?
+XDG_CACHE_HOME=$folder oclgrind --build-options "-cl-opt-disable -DTRIAD_CALLS" --log "$folder/log" "$@" || status=$?
 if [ -s "$folder/log" ]; then
     head -n 60 "$folder/log" >&2
     exit 1
