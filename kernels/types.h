@@ -182,7 +182,7 @@ typedef struct Material {
 } Material;
 TRIAD_SIZE(Material, 128);
 
-/* Directional-albedo tables, one float array (host/render/albedo_tables.h, kernels/shading/albedo.h).
+/* Directional-albedo tables, one float array (host/pack/albedo_tables.h, kernels/shading/albedo.h).
  * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over
  * [0, 1]. Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index
  * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. */

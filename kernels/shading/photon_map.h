@@ -156,9 +156,9 @@ TRIAD_FUNCTION_ONCE Vec3 photon_gather(const Scene* scene, const PhotonQuery* qu
     const Vec3 reach = vec3_splat(query->radius);
     /* two cells along each axis at most, where float no longer tells cells apart too */
     const IVec3 low = photon_cell(&map, vec3_sub(query->position, reach)),
-                end = photon_cell(&map, vec3_add(query->position, reach));
-    const IVec3 high = ivec3_make(math_min_int(end.x, low.x + 1), math_min_int(end.y, low.y + 1),
-                                  math_min_int(end.z, low.z + 1));
+                last = photon_cell(&map, vec3_add(query->position, reach));
+    const IVec3 high = ivec3_make(math_min_int(last.x, low.x + 1), math_min_int(last.y, low.y + 1),
+                                  math_min_int(last.z, low.z + 1));
     long sums[3] = {0, 0, 0};
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
