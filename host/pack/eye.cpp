@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "pack/pack.h"
 #include "pack/refine.h"
@@ -9,9 +10,13 @@
 namespace triad {
 namespace {
 
-/// Coordinates of a triangle are at most so many times its distance from the eye that a scene is packed for:
-/// its own edges are (pack/refine.h), and the render origin lies at that eye.
-constexpr double most_coordinate = longest_edge_per_distance + 1;
+/// A packing is kept while its promises hold within a factor of two: without it, a step of an eye before a
+/// floor that was cut for it would already cut other edges. Points then err by twice as much, still far below
+/// 1e-4 of their distance (pack/refine.h).
+constexpr double longest_kept_edge = 2 * longest_edge_per_distance;
+/// Coordinates of a triangle are as many times its distance from the eye that a scene is packed for as its
+/// edges are, since the render origin lies at that eye, and once more.
+constexpr double most_coordinate = 2 * (longest_edge_per_distance + 1);
 
 bool packs_alike(const RenderSettings& a, const RenderSettings& b) {
     return a.spectral == b.spectral && a.integrator == b.integrator && a.aim_photons == b.aim_photons &&
@@ -24,18 +29,33 @@ bool same_place(const View& a, const View& b) {
     return a.eye == b.eye && a.orthographic == b.orthographic && lens_reach(a) <= lens_reach(b);
 }
 
-/// The squared distance of a point from the box around three corners.
-double distance2(const dvec3& p, const dvec3 corners[3]) {
-    const dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2])),
-                high = glm::max(corners[0], glm::max(corners[1], corners[2]));
-    const dvec3 off = p - glm::clamp(p, low, high);
+/// The squared distance of p from the segment between a and b.
+double distance2(const dvec3& p, const dvec3& a, const dvec3& b) {
+    const dvec3 edge = b - a;
+    const double length2 = glm::dot(edge, edge);
+    const double at = length2 > 0 ? std::clamp(glm::dot(p - a, edge) / length2, 0.0, 1.0) : 0.0;
+    const dvec3 off = p - a - edge * at;
     return glm::dot(off, off);
+}
+
+/// The same from a triangle: from its plane where p lies above its inside.
+double distance2(const dvec3& p, const dvec3 corner[3]) {
+    const dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+    bool inside = true;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+        const dvec3 &a = corner[i], &b = corner[(i + 1) % 3];
+        inside &= glm::dot(glm::cross(b - a, p - a), normal) >= 0;
+        least = std::min(least, distance2(p, a, b));
+    }
+    const double above = glm::dot(p - corner[0], normal);
+    return inside && normal != dvec3(0.0) ? above * above / glm::dot(normal, normal) : least;
 }
 
 /// What is flattened is exact enough for an eye at `eye` (rebased).
 bool is_exact(const PackedScene& packed, const dvec3& eye) {
     const dvec3 most = glm::max(glm::abs(packed.bounds.lo), glm::abs(packed.bounds.hi));
-    const Cutter cutter(eye, std::max({most.x, most.y, most.z}));
+    const Cutter cutter(eye, std::max({most.x, most.y, most.z}), longest_kept_edge);
     for (std::size_t i = packed.first_placed_block; i < packed.bvh.blocks.size(); ++i) {
         const dev::TriangleBlock& block = packed.bvh.blocks[i];
         for (int lane = 0; lane < 4; ++lane) {

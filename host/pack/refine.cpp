@@ -80,7 +80,8 @@ class Refiner {
 
 }  // namespace
 
-Cutter::Cutter(const dvec3& eye, double reach) : eye_(eye), least_(0x1p-30 * reach) {}
+Cutter::Cutter(const dvec3& eye, double reach, double longest)
+    : eye_(eye), least_(0x1p-30 * reach), longest_(longest) {}
 
 bool Cutter::cuts(const dvec3& a, const dvec3& b) const {
     const bool ordered = std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -89,13 +90,13 @@ bool Cutter::cuts(const dvec3& a, const dvec3& b) const {
     const double length2 = glm::dot(edge, edge);
     if (!(length2 > least_ * least_)) return false;
     const dvec3 away = offset - edge * std::clamp(glm::dot(offset, edge) / length2, 0.0, 1.0);
-    return length2 > longest_edge_per_distance * longest_edge_per_distance * glm::dot(away, away);
+    return length2 > longest_ * longest_ * glm::dot(away, away);
 }
 
 bool Cutter::cuts_any(const dvec3& a, const dvec3& b, const dvec3& c) const {
     const double longest2 =
         std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-    constexpr double factor = 1.0 + 1.0 / longest_edge_per_distance;
+    const double factor = 1.0 + 1.0 / longest_;
     if (glm::dot(eye_ - a, eye_ - a) > factor * factor * longest2) return false;  // too far away for any edge
     return cuts(a, b) || cuts(b, c) || cuts(c, a);
 }

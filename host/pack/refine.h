@@ -14,7 +14,7 @@ constexpr double longest_edge_per_distance = 32.0;
 /// are left alone, at the eye too.
 class Cutter {
   public:
-    Cutter(const dvec3& eye, double reach);
+    Cutter(const dvec3& eye, double reach, double longest = longest_edge_per_distance);
     /// The same for (b, a), so that neighbours agree.
     bool cuts(const dvec3& a, const dvec3& b) const;
     /// Some edge of a triangle; a glance is enough for nearly all.
@@ -22,7 +22,7 @@ class Cutter {
 
   private:
     dvec3 eye_;
-    double least_;
+    double least_, longest_;
 };
 
 /// Float places a point of a triangle within some ulp of the triangle's largest coordinate: on a plane of ten

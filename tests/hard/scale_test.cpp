@@ -140,7 +140,7 @@ TEST_F(Hard, a_camera_that_comes_down_to_ten_kilometres_sees_right_with_few_pack
     const View last = settings.view;
     std::shared_ptr<const PackedScene> packed;
     unsigned views = 0;
-    for (double height = 4000; height > 0.01; height /= 5) {
+    for (double height = 800; height > 0.01; height /= 5) {
         settings.view = last;
         settings.view.eye += last.up * height;
         packed = pack_for(scene, settings, packed);

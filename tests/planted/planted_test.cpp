@@ -112,9 +112,9 @@ std::string oclgrind(const std::string& options, const fs::path& kernels, const 
     // A cache of its own: what it compiled otherwise would lack these build options.
     const fs::path cache = fs::temp_directory_path() / ("triad-oclgrind-cache-" + std::to_string(::getpid()));
     const std::string command =
-        "XDG_CACHE_HOME=" + cache.string() + " oclgrind --build-options -cl-opt-disable " + options +
-        " --log " + log.string() + " " + TRIAD_PROGRAM + " check --tiny --device oclgrind --case " + id +
-        " --kernels " + kernels.string() + " > /dev/null 2>&1";
+        "XDG_CACHE_HOME=" + cache.string() + " oclgrind --build-options '-cl-opt-disable -DTRIAD_CALLS' " +
+        options + " --log " + log.string() + " " + TRIAD_PROGRAM + " check --tiny --device oclgrind --case " +
+        id + " --kernels " + kernels.string() + " > /dev/null 2>&1";
     [[maybe_unused]] const int status = std::system(command.c_str());
     const std::string text = text_of(log);
     fs::remove(log);
@@ -125,7 +125,8 @@ std::string oclgrind(const std::string& options, const fs::path& kernels, const 
 TEST(Simulator, sees_a_read_out_of_bounds_that_changes_no_value) {
     if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
     EXPECT_EQ(oclgrind("", fs::path(TRIAD_SOURCE_DIR) / "kernels", "C16e"), "");
-    const FaultyKernels kernels("shading/environment.h", "clamp((int)fy + 1, 0, h - 1)", "(int)fy + 1");
+    const FaultyKernels kernels("shading/environment.h", "math_clamp_int((int)fy + 1, 0, h - 1)",
+                                "(int)fy + 1");
     ASSERT_TRUE(kernels.found_once);
     EXPECT_NE(oclgrind("", kernels.folder, "C16e").find("Invalid read"), std::string::npos);
 }
