@@ -161,7 +161,13 @@ Problems bad_ones(const std::vector<Icd>& icds, bool trust_memory) {
     if (trust_memory)
         if (const auto kept = load_verdict(path)) return *kept;
     if (icds.empty() || !restarts_allowed()) return {};
-    const Problems bad = try_drivers(icds);
+    Problems bad;
+    try {
+        bad = try_drivers(icds);
+    } catch (const Error& error) {  // a full disk, say: no reason not to go on
+        detail(std::string("The OpenCL drivers could not be tried first: ") + error.what());
+        return {};
+    }
     // A verdict that leaves nothing is an error elsewhere. If it were wrong it would be the end of all runs,
     // so it is found each time.
     if (bad.size() == icds.size()) return bad;
