@@ -12,24 +12,25 @@ static_assert(sizeof(long) == 8, "the kernels' long");
 
 #define TRIAD_ARRAY(type, name) DeviceArray<type> name;
 #define TRIAD_VALUE(type, name) type name;
+#define TRIAD_ARGUMENTS(LIST) LIST(TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_VALUE)
 
 /// An array that is not needed may be empty.
 struct SceneArguments {
     SCENE_LIST(TRIAD_ARRAY, TRIAD_ARRAY)
 };
-struct TracePathsArguments {
-    TRACE_PATHS_LIST(TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_VALUE)
-};
-struct RecordPathsArguments {
-    RECORD_PATHS_LIST(TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_VALUE)
-};
-struct TraceFeaturesArguments {
-    TRACE_FEATURES_LIST(TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_VALUE)
-};
-struct TracePhotonsArguments {
-    TRACE_PHOTONS_LIST(TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_ARRAY, TRIAD_VALUE)
-};
+// clang-format off
+struct TracePathsArguments { TRIAD_ARGUMENTS(TRACE_PATHS_LIST) };
+struct TraceEdgesArguments { TRIAD_ARGUMENTS(TRACE_EDGES_LIST) };
+struct ShadeVerticesArguments { TRIAD_ARGUMENTS(SHADE_VERTICES_LIST) };
+struct TraceShadowsArguments { TRIAD_ARGUMENTS(TRACE_SHADOWS_LIST) };
+struct EndPathsArguments { TRIAD_ARGUMENTS(END_PATHS_LIST) };
+struct StartPathsArguments { TRIAD_ARGUMENTS(START_PATHS_LIST) };
+struct RecordPathsArguments { TRIAD_ARGUMENTS(RECORD_PATHS_LIST) };
+struct TraceFeaturesArguments { TRIAD_ARGUMENTS(TRACE_FEATURES_LIST) };
+struct TracePhotonsArguments { TRIAD_ARGUMENTS(TRACE_PHOTONS_LIST) };
+// clang-format on
 
+#undef TRIAD_ARGUMENTS
 #undef TRIAD_ARRAY
 #undef TRIAD_VALUE
 
@@ -37,21 +38,22 @@ struct TracePhotonsArguments {
 
 /// In the order in which kernels take them.
 #define TRIAD_ADD(type, name) .add(a.name)
+#define TRIAD_ARGUMENTS_OF(LIST) Arguments() LIST(TRIAD_ADD, TRIAD_ADD, TRIAD_ADD, TRIAD_ADD)
 inline Arguments arguments_of(const dev::SceneArguments& a) {
     return Arguments() SCENE_LIST(TRIAD_ADD, TRIAD_ADD);
 }
-inline Arguments arguments_of(const dev::TracePathsArguments& a) {
-    return Arguments() TRACE_PATHS_LIST(TRIAD_ADD, TRIAD_ADD, TRIAD_ADD, TRIAD_ADD);
-}
-inline Arguments arguments_of(const dev::RecordPathsArguments& a) {
-    return Arguments() RECORD_PATHS_LIST(TRIAD_ADD, TRIAD_ADD, TRIAD_ADD, TRIAD_ADD);
-}
-inline Arguments arguments_of(const dev::TraceFeaturesArguments& a) {
-    return Arguments() TRACE_FEATURES_LIST(TRIAD_ADD, TRIAD_ADD, TRIAD_ADD, TRIAD_ADD);
-}
-inline Arguments arguments_of(const dev::TracePhotonsArguments& a) {
-    return Arguments() TRACE_PHOTONS_LIST(TRIAD_ADD, TRIAD_ADD, TRIAD_ADD, TRIAD_ADD);
-}
+// clang-format off
+inline Arguments arguments_of(const dev::TracePathsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_PATHS_LIST); }
+inline Arguments arguments_of(const dev::TraceEdgesArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_EDGES_LIST); }
+inline Arguments arguments_of(const dev::ShadeVerticesArguments& a) { return TRIAD_ARGUMENTS_OF(SHADE_VERTICES_LIST); }
+inline Arguments arguments_of(const dev::TraceShadowsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_SHADOWS_LIST); }
+inline Arguments arguments_of(const dev::EndPathsArguments& a) { return TRIAD_ARGUMENTS_OF(END_PATHS_LIST); }
+inline Arguments arguments_of(const dev::StartPathsArguments& a) { return TRIAD_ARGUMENTS_OF(START_PATHS_LIST); }
+inline Arguments arguments_of(const dev::RecordPathsArguments& a) { return TRIAD_ARGUMENTS_OF(RECORD_PATHS_LIST); }
+inline Arguments arguments_of(const dev::TraceFeaturesArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_FEATURES_LIST); }
+inline Arguments arguments_of(const dev::TracePhotonsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_PHOTONS_LIST); }
+// clang-format on
+#undef TRIAD_ARGUMENTS_OF
 #undef TRIAD_ADD
 
 }  // namespace triad

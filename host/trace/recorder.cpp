@@ -1,4 +1,5 @@
 #include "trace/recorder.h"
+#include "trace/program.h"
 
 #include <algorithm>
 

@@ -7,10 +7,6 @@
 
 namespace triad {
 
-std::string program_of(const RenderSettings& settings, const std::string& what) {
-    return "path/" + what + (settings.spectral == Spectral::full ? "_full.cl" : ".cl");
-}
-
 Tracer::Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& settings,
                const Features& features, const Film& shape)
     : scene_(std::move(scene)),
@@ -24,7 +20,7 @@ Tracer::Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& s
                                    photons_.map().buffers())),
       part_(device_, shape),
       work_(device_.allocate_array<dev::TileWork>(tile_count(shape.width, shape.height))) {
-    trace_paths_ = device_.build(program_of(settings, "mega"), options_of(features)).kernel("trace_paths");
+    driver_ = std::getenv("WAVE") ? make_wave(*scene_, settings, features) : make_mega(device_, settings, features);
     part_.clear();
     photons_.compile(options_of(features), arguments_, part_);
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
@@ -63,13 +59,13 @@ void Tracer::trace(std::size_t first, std::size_t count, std::uint64_t first_sam
                                            .first_sample_low = std::uint32_t(first_sample),
                                            .first_sample_high = std::uint32_t(first_sample >> 32),
                                            .first_pixel = std::uint32_t(band.first_pixel)};
-        device_.run(trace_paths_, Arguments(arguments_).add(arguments_of(own)), n * FILM_TILE_PIXELS);
+        driver_->trace(arguments_, own);
         first += n, count -= n;
     }
 }
 
 std::uint64_t Tracer::bytes() const {
-    return scene_->bytes() + frame_buffer_.bytes() + photons_.bytes() + part_.bytes() + work_.bytes();
+    return scene_->bytes() + frame_buffer_.bytes() + photons_.bytes() + part_.bytes() + work_.bytes() + driver_->bytes();
 }
 
 }  // namespace triad

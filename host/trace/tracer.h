@@ -7,6 +7,7 @@
 
 #include "trace/device_scene.h"
 #include "trace/film_part.h"
+#include "trace/path_driver.h"
 #include "trace/photon_tracer.h"
 
 namespace triad {
@@ -14,9 +15,6 @@ namespace triad {
 /// Tiles of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
 /// there is one program for everything, and compiling is over before rendering begins.
 constexpr std::size_t largest_launch = largest_launch_items / FILM_TILE_PIXELS;
-
-/// The program that traces (or records) paths with these settings.
-std::string program_of(const RenderSettings& settings, const std::string& what);
 
 class Tracer {
   public:
@@ -59,7 +57,7 @@ class Tracer {
     FilmPart part_;
     DeviceArray<dev::TileWork> work_;
     std::vector<dev::TileWork> tiles_;  ///< what work_ holds
-    Kernel trace_paths_;
+    std::unique_ptr<PathDriver> driver_;
 };
 
 }  // namespace triad

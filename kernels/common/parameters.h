@@ -9,7 +9,7 @@
 
 #define PARAMETER_FIRST(type, name) global const type* name
 #define PARAMETER_ARRAY(type, name) , global const type* name
-#define PARAMETER_OWNED(type, name) , global type* name
+#define PARAMETER_OWNED(type, name) , global type* restrict name
 #define PARAMETER_SHARED(type, name) , volatile global type* name
 #define PARAMETER_VALUE(type, name) , type name
 

@@ -9,6 +9,9 @@
 /* Light that arrives if nothing is in the way of the ray. */
 typedef struct PendingLight {
     Ray ray;
+#if TRIAD_ALPHA_TEST
+    uint name; /* of the ray: coverage_ray() */
+#endif
     Colour worth; /* what it adds to the radiance of the path; of a map: times its radiance and weight */
 #if TRIAD_ENVIRONMENT_MAP
     /* of a map, which is looked up when the ray has got through */
@@ -80,6 +83,9 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
     const Vec3 away = side > 0.0f ? vertex->ng : vec3_negate(vertex->ng);
     pending->ray = light.distant ? vertex_spawn(s, away, &vertex->hit, light.direction)
                                  : vertex_spawn_to(s, away, &vertex->hit, light.target);
+#if TRIAD_ALPHA_TEST
+    pending->name = path_ray_name(path) + 1u;
+#endif
     pending->worth =
         colour_mul(direct, colour_scale(radiance, power_heuristic(bsdf_pdf * light.inverse_pdf)));
 #if TRIAD_ENVIRONMENT_MAP

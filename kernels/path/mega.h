@@ -20,7 +20,10 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
     Vertex vertex = path_surface(scene, path, &hit, tally);
     if (path_unlit(scene, path, &vertex, tally)) return 0;
     path_emission(scene, path, &vertex, tally);
-    if (path_is_longest(scene, path, tally)) return 0;
+    if (path_is_longest(scene, path)) {
+        path_cut(path, tally);
+        return 0;
+    }
 
     path_fork(scene, path, &vertex);
     const VertexBsdf bsdf = path_bsdf(scene, path, &vertex);
@@ -28,7 +31,7 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
 
     PendingLight light;
     if (path_connect(scene, path, &vertex, &bsdf, &u, &light) &&
-        !path_occluded(scene, path, light.ray, tally))
+        !path_occluded(scene, &light, tally))
         path_arrive(scene, path, &light, tally);
 
     Scatter scatter;

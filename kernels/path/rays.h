@@ -2,8 +2,7 @@
 #ifndef TRIAD_PATH_RAYS_H
 #define TRIAD_PATH_RAYS_H
 
-#include "path/record.h"
-#include "shading/coverage.h"
+#include "path/connect.h"
 #include "traversal/traverse.h"
 
 /* name: of the ray, by which the alpha test decides: coverage_ray(). */
@@ -31,17 +30,6 @@ TRIAD_FUNCTION int rays_occluded(const Scene* scene, Ray ray, uint name, Tally* 
     return traverse_occluded(&traversal, ray);
 }
 
-/* Of the edge of a path. */
-TRIAD_FUNCTION uint path_ray_name(const PathState* path) {
-#if TRIAD_ALPHA_TEST
-    const Sampler s = path_sampler(path);
-    return coverage_ray(&s, path->edge);
-#else
-    (void)path;
-    return 0u;
-#endif
-}
-
 /* Where the path's edge ends. */
 TRIAD_FUNCTION Hit path_closest(const Scene* scene, const PathState* path, Tally* tally) {
 #if PATH_FORKS
@@ -50,9 +38,13 @@ TRIAD_FUNCTION Hit path_closest(const Scene* scene, const PathState* path, Tally
     return rays_closest(scene, path->ray, path_ray_name(path), tally);
 }
 
-/* Whether the shadow ray of the vertex at its end meets anything. */
-TRIAD_FUNCTION int path_occluded(const Scene* scene, const PathState* path, Ray shadow, Tally* tally) {
-    return rays_occluded(scene, shadow, path_ray_name(path) + 1u, tally);
+/* Whether anything is in the way of the light that a vertex has chosen. */
+TRIAD_FUNCTION int path_occluded(const Scene* scene, const PendingLight* light, Tally* tally) {
+#if TRIAD_ALPHA_TEST
+    return rays_occluded(scene, light->ray, light->name, tally);
+#else
+    return rays_occluded(scene, light->ray, 0u, tally);
+#endif
 }
 
 #endif

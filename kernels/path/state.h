@@ -8,6 +8,7 @@
 #define TRIAD_PATH_STATE_H
 
 #include "path/colour.h"
+#include "shading/coverage.h"
 
 /* What a path has been so far. */
 #define PATH_STRAIGHT 1u /* only transmissions: the camera looks through */
@@ -110,6 +111,17 @@ TRIAD_FUNCTION Sampler path_sampler(const PathState* path) {
 TRIAD_FUNCTION SamplerBlock path_numbers(const PathState* path) {
     const Sampler s = path_sampler(path);
     return sampler_block(&s, path->edge);
+}
+
+/* Of the ray of the edge, by which the alpha test decides; the shadow ray from its end has the next. */
+TRIAD_FUNCTION uint path_ray_name(const PathState* path) {
+#if TRIAD_ALPHA_TEST
+    const Sampler s = path_sampler(path);
+    return coverage_ray(&s, path->edge);
+#else
+    (void)path;
+    return 0u;
+#endif
 }
 
 #endif

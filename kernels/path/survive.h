@@ -10,14 +10,17 @@
 #define ROULETTE_ALWAYS 0.999f
 
 /* Whether this edge is the last one that Frame.max_depth allows. */
-TRIAD_FUNCTION int path_is_longest(const Scene* scene, const PathState* path, Tally* tally) {
-    if (path->edge != scene->frame->max_depth) return 0;
+TRIAD_FUNCTION int path_is_longest(const Scene* scene, const PathState* path) {
+    return path->edge == scene->frame->max_depth;
+}
+
+/* The path ends after such an edge: what it would have gone on with is counted. */
+TRIAD_FUNCTION void path_cut(const PathState* path, Tally* tally) {
     ++tally->truncated;
     tally->cut_energy +=
         (uint)(math_min(path_share(&path->colours) * colour_luminance(path->throughput), 65535.0f) *
                CUT_ENERGY_ONE);
     record_end(tally, PATH_LONGEST);
-    return 1;
 }
 
 /* Russian roulette; who survives goes on with the next edge. */

@@ -7,6 +7,11 @@
 
 #include "shading/scene.h"
 
+/* Levels of the scene's trees at most, for programs that unroll the search: the host may know fewer. */
+#ifndef TRIAD_CDF_LEVELS
+#define TRIAD_CDF_LEVELS CDF_LEVELS
+#endif
+
 /* Which of eight bounds that do not fall is the last not beyond u; the first is not. */
 TRIAD_FUNCTION uint cdf_below(global const uint* bounds, uint u) {
 #if TRIAD_ITEM_LANES
@@ -26,7 +31,7 @@ TRIAD_FUNCTION uint cdf_find(global const CdfShape* shape, global const uint* tr
     const uint levels = shape->levels;
     uint i = 0u;
     uint first = 0u;
-    TRIAD_FOR(level, levels, CDF_LEVELS) {
+    TRIAD_FOR(level, levels, TRIAD_CDF_LEVELS) {
         first = shape->first[level];
         i = 8u * i + cdf_below(tree + first + 8u * i, u);
     }

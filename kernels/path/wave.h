@@ -1,0 +1,159 @@
+/* The driver `wave`: a launch per stage over a pool of paths. A path in the pool has a slot, which follows
+ * the samples of one pixel after the other, so that a pixel's sums have one owner; pixels without a slot wait
+ * in the launch's list of work.
+ *
+ * One round of launches takes every path one edge further:
+ *   trace_edges     what the edge meets                                    path/wave_trace.cl
+ *   shade_vertices  surface, emission, connect, scatter, survive           path/wave_shade.cl
+ *   trace_shadows   the light that shade_vertices has chosen, if it is seen
+ *   end_paths       miss; the next wavelength; or add, and the slot's next sample
+ *   start_paths     start
+ * What a path is between launches lies in planes of 32-bit words, one for each member: item i has word i. */
+#ifndef TRIAD_PATH_WAVE_H
+#define TRIAD_PATH_WAVE_H
+
+#include "path/connect.h"
+#include "path/start.h"
+
+/* Where a slot's path stands. */
+#define WAVE_NEW 0u   /* the slot has no pixel yet */
+#define WAVE_START 1u /* a sample is to be started */
+#define WAVE_EDGE 2u  /* an edge is to be traced */
+#define WAVE_HIT 3u   /* it has met a surface */
+#define WAVE_MISS 4u  /* it has met none */
+#define WAVE_END 5u   /* the path has ended */
+#define WAVE_IDLE 6u  /* there are no more pixels */
+/* Added where a light waits for its shadow ray. */
+#define WAVE_LIGHT 8u
+/* Added to WAVE_END after the longest path that is allowed. */
+#define WAVE_LONGEST 16u
+
+/* Slots of the pool. A constant: where the distance of two planes is not known, no compiler makes lanes of
+ * slots. */
+#ifndef PATH_POOL_SLOTS
+#define PATH_POOL_SLOTS 4096
+#endif
+
+/* Words of a slot on their way between planes and a path's members, in the order of the calls. */
+typedef struct Planes {
+    global uint* words;
+    size_t next; /* word */
+    int stores;  /* from members to planes, or back */
+} Planes;
+
+TRIAD_FUNCTION_PER_CALL Planes planes_load(global const uint* words, size_t i) {
+    const Planes p = {(global uint*)words, i, 0};
+    return p;
+}
+TRIAD_FUNCTION_PER_CALL Planes planes_store(global uint* words, size_t i) {
+    const Planes p = {words, i, 1};
+    return p;
+}
+TRIAD_FUNCTION_PER_CALL void planes_uint(Planes* p, uint* member) {
+    if (p->stores) p->words[p->next] = *member;
+    else *member = p->words[p->next];
+    p->next += PATH_POOL_SLOTS;
+}
+TRIAD_FUNCTION_PER_CALL void planes_float(Planes* p, float* member) {
+    if (p->stores) p->words[p->next] = as_uint(*member);
+    else *member = as_float(p->words[p->next]);
+    p->next += PATH_POOL_SLOTS;
+}
+TRIAD_FUNCTION_PER_CALL void planes_vec3(Planes* p, Vec3* v) {
+    planes_float(p, &v->x), planes_float(p, &v->y), planes_float(p, &v->z);
+}
+TRIAD_FUNCTION_PER_CALL void planes_array3(Planes* p, float v[3]) {
+    planes_float(p, v), planes_float(p, v + 1), planes_float(p, v + 2);
+}
+TRIAD_FUNCTION_PER_CALL void planes_colour(Planes* p, Colour* c) {
+    planes_float(p, &c->x), planes_float(p, &c->y), planes_float(p, &c->z);
+#if TRIAD_HERO
+    planes_float(p, &c->w);
+#endif
+}
+TRIAD_FUNCTION_PER_CALL void planes_ray(Planes* p, Ray* ray) {
+    planes_array3(p, ray->origin), planes_array3(p, ray->direction);
+    planes_float(p, &ray->t_max);
+    planes_uint(p, &ray->skip_instance), planes_uint(p, &ray->skip_primitive);
+}
+TRIAD_FUNCTION_PER_CALL void planes_hit(Planes* p, Hit* hit) {
+    planes_float(p, &hit->t), planes_float(p, &hit->u), planes_float(p, &hit->v);
+    planes_uint(p, &hit->primitive), planes_uint(p, &hit->instance), planes_uint(p, &hit->block);
+}
+#if TRIAD_TRANSMISSION
+TRIAD_FUNCTION_PER_CALL void planes_bodies(Planes* p, Bodies* b) {
+    planes_uint(p, &b->x), planes_uint(p, &b->y), planes_uint(p, &b->z), planes_uint(p, &b->w);
+}
+#endif
+TRIAD_FUNCTION_PER_CALL void planes_path_colour(Planes* p, PathColour* c) {
+#if TRIAD_HERO
+    planes_colour(p, &c->wavelengths), planes_colour(p, &c->share);
+    for (uint k = 0u; k < 3u; ++k) planes_colour(p, &c->basis[k]), planes_colour(p, &c->filter[k]);
+#else
+    planes_float(p, &c->wavelength);
+#if TRIAD_DISPERSION
+    planes_vec3(p, &c->filter), planes_vec3(p, &c->before);
+    planes_float(p, &c->share);
+#endif
+#endif
+}
+
+/* What the path has found comes first: trace_shadows writes no more. */
+TRIAD_FUNCTION_PER_CALL void planes_found(Planes* p, PathState* path) { planes_colour(p, &path->radiance); }
+
+/* Every member of PathState. */
+TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
+    planes_found(p, path);
+    planes_ray(p, &path->ray);
+    planes_uint(p, &path->edge);
+    planes_uint(p, &path->sampler.index_reversed);
+    planes_uint(p, &path->sampler.key0), planes_uint(p, &path->sampler.key1);
+    planes_uint(p, &path->sampler.first_block);
+    planes_uint(p, &path->traits);
+    planes_float(p, &path->pdf);
+    planes_colour(p, &path->throughput);
+#if TRIAD_TRANSMISSION
+    planes_float(p, &path->body_scale);
+    planes_bodies(p, &path->bodies);
+    planes_vec3(p, &path->from);
+#endif
+    planes_float(p, &path->alpha);
+    planes_path_colour(p, &path->colours);
+#if PATH_FORKS
+    PathFork* fork = &path->fork;
+    planes_uint(p, &fork->branch), planes_uint(p, &fork->edge);
+    planes_hit(p, &fork->hit);
+    planes_array3(p, fork->direction);
+    planes_uint(p, &fork->traits);
+    planes_colour(p, &fork->throughput);
+    planes_float(p, &fork->body_scale);
+    planes_bodies(p, &fork->bodies);
+#endif
+}
+
+TRIAD_FUNCTION_PER_CALL void planes_light(Planes* p, PendingLight* light) {
+    planes_ray(p, &light->ray);
+    planes_colour(p, &light->worth);
+#if TRIAD_ALPHA_TEST
+    planes_uint(p, &light->name);
+#endif
+#if TRIAD_ENVIRONMENT_MAP
+    planes_float(p, &light->inverse_pdf), planes_float(p, &light->bsdf_pdf);
+    planes_float(p, &light->uv.x), planes_float(p, &light->uv.y);
+    planes_uint(p, &light->flags);
+#endif
+}
+
+/* A slot's members of that kind, as the kernels' arguments call them. */
+#define WAVE_LOAD(kind, planes, member)                             \
+    do {                                                            \
+        Planes wave_planes = planes_load(planes, i);    \
+        planes_##kind(&wave_planes, member);                        \
+    } while (0)
+#define WAVE_STORE(kind, planes, member)                            \
+    do {                                                            \
+        Planes wave_planes = planes_store(planes, i);   \
+        planes_##kind(&wave_planes, member);                        \
+    } while (0)
+
+#endif
