@@ -55,43 +55,21 @@
     VALUE(uint, first_sample_high)                    \
     VALUE(uint, first_pixel)
 
-/* path/wave_trace.cl and wave_shade.cl: a pool of paths, of which the first path_count slots are in use. What
- * has planes has one of PATH_POOL_SLOTS words for each member. */
-#define PATH_POOL_LIST(ARRAY, OWNED, SHARED, VALUE)          \
-    OWNED(uint, states) /* WAVE_*, where a slot's path is */ \
-    OWNED(uint, paths)  /* planes of PathState */            \
-    VALUE(uint, path_count)
-
-#define TRACE_EDGES_LIST(ARRAY, OWNED, SHARED, VALUE) \
-    PATH_POOL_LIST(ARRAY, OWNED, SHARED, VALUE)       \
-    OWNED(uint, hits) /* planes of Hit */             \
-    SHARED(uint, counters)
-
-#define SHADE_VERTICES_LIST(ARRAY, OWNED, SHARED, VALUE) \
-    PATH_POOL_LIST(ARRAY, OWNED, SHARED, VALUE)          \
-    ARRAY(uint, hits)                                    \
-    OWNED(uint, pending) /* planes of PendingLight */
-
-#define TRACE_SHADOWS_LIST(ARRAY, OWNED, SHARED, VALUE) \
-    PATH_POOL_LIST(ARRAY, OWNED, SHARED, VALUE)         \
-    ARRAY(uint, pending)                                \
-    SHARED(uint, counters)
-
-#define END_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)                               \
-    TRACE_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)                                 \
-    PATH_POOL_LIST(ARRAY, OWNED, SHARED, VALUE)                                   \
-    OWNED(uint, pixels)    /* of a slot, counted over the tiles of the launch */  \
-    OWNED(uint, taken)     /* samples that this pixel has had */                  \
-    SHARED(uint, progress) /* pixels that slots have taken; slots that are idle */
-
-#define START_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE) \
-    PATH_POOL_LIST(ARRAY, OWNED, SHARED, VALUE)       \
-    ARRAY(uint, pixels)                               \
-    ARRAY(uint, taken)                                \
-    ARRAY(TileWork, work)                             \
-    VALUE(uint, first_work)                           \
-    VALUE(uint, first_sample_low)                     \
-    VALUE(uint, first_sample_high)
+/* path/wave.cl: what trace_paths takes, and pool_count pools of paths (path/wave_stages.h), with so many planes for
+ * a path, a hit and a light. */
+#define TRACE_WAVE_LIST(ARRAY, OWNED, SHARED, VALUE)                    \
+    TRACE_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)                       \
+    OWNED(uint, states)                                                 \
+    OWNED(uint, pixels)                                                 \
+    OWNED(uint, taken)                                                  \
+    OWNED(uint, paths)                                                  \
+    OWNED(uint, hits)                                                   \
+    OWNED(uint, pending)                                                \
+    SHARED(uint, next_pixel) /* of the work: pools take one by one */   \
+    VALUE(uint, pool_count)                                             \
+    VALUE(uint, path_words)                                             \
+    VALUE(uint, hit_words)                                              \
+    VALUE(uint, light_words)
 
 /* path/record.cl: samples [first_sample, first_sample + sample_count) of the pixel (x, y) of the crop. */
 #define RECORD_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)       \

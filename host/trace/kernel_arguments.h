@@ -20,11 +20,7 @@ struct SceneArguments {
 };
 // clang-format off
 struct TracePathsArguments { TRIAD_ARGUMENTS(TRACE_PATHS_LIST) };
-struct TraceEdgesArguments { TRIAD_ARGUMENTS(TRACE_EDGES_LIST) };
-struct ShadeVerticesArguments { TRIAD_ARGUMENTS(SHADE_VERTICES_LIST) };
-struct TraceShadowsArguments { TRIAD_ARGUMENTS(TRACE_SHADOWS_LIST) };
-struct EndPathsArguments { TRIAD_ARGUMENTS(END_PATHS_LIST) };
-struct StartPathsArguments { TRIAD_ARGUMENTS(START_PATHS_LIST) };
+struct TraceWaveArguments { TRIAD_ARGUMENTS(TRACE_WAVE_LIST) };
 struct RecordPathsArguments { TRIAD_ARGUMENTS(RECORD_PATHS_LIST) };
 struct TraceFeaturesArguments { TRIAD_ARGUMENTS(TRACE_FEATURES_LIST) };
 struct TracePhotonsArguments { TRIAD_ARGUMENTS(TRACE_PHOTONS_LIST) };
@@ -44,11 +40,7 @@ inline Arguments arguments_of(const dev::SceneArguments& a) {
 }
 // clang-format off
 inline Arguments arguments_of(const dev::TracePathsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_PATHS_LIST); }
-inline Arguments arguments_of(const dev::TraceEdgesArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_EDGES_LIST); }
-inline Arguments arguments_of(const dev::ShadeVerticesArguments& a) { return TRIAD_ARGUMENTS_OF(SHADE_VERTICES_LIST); }
-inline Arguments arguments_of(const dev::TraceShadowsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_SHADOWS_LIST); }
-inline Arguments arguments_of(const dev::EndPathsArguments& a) { return TRIAD_ARGUMENTS_OF(END_PATHS_LIST); }
-inline Arguments arguments_of(const dev::StartPathsArguments& a) { return TRIAD_ARGUMENTS_OF(START_PATHS_LIST); }
+inline Arguments arguments_of(const dev::TraceWaveArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_WAVE_LIST); }
 inline Arguments arguments_of(const dev::RecordPathsArguments& a) { return TRIAD_ARGUMENTS_OF(RECORD_PATHS_LIST); }
 inline Arguments arguments_of(const dev::TraceFeaturesArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_FEATURES_LIST); }
 inline Arguments arguments_of(const dev::TracePhotonsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_PHOTONS_LIST); }

@@ -1,14 +1,14 @@
-/* The driver `wave`: a launch per stage over a pool of paths. A path in the pool has a slot, which follows
- * the samples of one pixel after the other, so that a pixel's sums have one owner; pixels without a slot wait
- * in the launch's list of work.
+/* The driver `wave`: a pool of paths, which all do one stage before any does the next, so that compilers can
+ * make lanes of them. A path has a slot of the pool, which follows the samples of one pixel after the other,
+ * so that a pixel's sums have one owner; pixels without a slot wait in the launch's list of work.
  *
- * One round of launches takes every path one edge further:
- *   trace_edges     what the edge meets                                    path/wave_trace.cl
- *   shade_vertices  surface, emission, connect, scatter, survive           path/wave_shade.cl
- *   trace_shadows   the light that shade_vertices has chosen, if it is seen
- *   end_paths       miss; the next wavelength; or add, and the slot's next sample
- *   start_paths     start
- * What a path is between launches lies in planes of 32-bit words, one for each member: item i has word i. */
+ * One round takes every path one edge further (path/wave_stages.h):
+ *   wave_end      miss; the next wavelength; or add, and the slot's next sample
+ *   wave_start    start
+ *   wave_edge     what the edge meets
+ *   wave_vertex   surface, emission, connect, scatter, survive
+ *   wave_shadow   the light that wave_vertex has chosen, if it is seen
+ * Between stages a path lies in planes of 32-bit words, one for each member: slot i has word i. */
 #ifndef TRIAD_PATH_WAVE_H
 #define TRIAD_PATH_WAVE_H
 
@@ -28,10 +28,10 @@
 /* Added to WAVE_END after the longest path that is allowed. */
 #define WAVE_LONGEST 16u
 
-/* Slots of the pool. A constant: where the distance of two planes is not known, no compiler makes lanes of
- * slots. */
-#ifndef PATH_POOL_SLOTS
-#define PATH_POOL_SLOTS 4096
+/* From a word of a plane to that of the next. A constant: where the distance of two planes is not known, no
+ * compiler makes lanes of slots. No power of two: those would share a few lines of the cache. */
+#ifndef TRIAD_PLANE
+#define TRIAD_PLANE 272
 #endif
 
 /* Words of a slot on their way between planes and a path's members, in the order of the calls. */
@@ -52,12 +52,12 @@ TRIAD_FUNCTION_PER_CALL Planes planes_store(global uint* words, size_t i) {
 TRIAD_FUNCTION_PER_CALL void planes_uint(Planes* p, uint* member) {
     if (p->stores) p->words[p->next] = *member;
     else *member = p->words[p->next];
-    p->next += PATH_POOL_SLOTS;
+    p->next += TRIAD_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_float(Planes* p, float* member) {
     if (p->stores) p->words[p->next] = as_uint(*member);
     else *member = as_float(p->words[p->next]);
-    p->next += PATH_POOL_SLOTS;
+    p->next += TRIAD_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_vec3(Planes* p, Vec3* v) {
     planes_float(p, &v->x), planes_float(p, &v->y), planes_float(p, &v->z);
@@ -143,17 +143,5 @@ TRIAD_FUNCTION_PER_CALL void planes_light(Planes* p, PendingLight* light) {
     planes_uint(p, &light->flags);
 #endif
 }
-
-/* A slot's members of that kind, as the kernels' arguments call them. */
-#define WAVE_LOAD(kind, planes, member)                             \
-    do {                                                            \
-        Planes wave_planes = planes_load(planes, i);    \
-        planes_##kind(&wave_planes, member);                        \
-    } while (0)
-#define WAVE_STORE(kind, planes, member)                            \
-    do {                                                            \
-        Planes wave_planes = planes_store(planes, i);   \
-        planes_##kind(&wave_planes, member);                        \
-    } while (0)
 
 #endif

@@ -1,0 +1,193 @@
+/* What a slot of the pool does in each stage of a round. */
+#ifndef TRIAD_PATH_WAVE_STAGES_H
+#define TRIAD_PATH_WAVE_STAGES_H
+
+#include "path/add.h"
+#include "path/emission.h"
+#include "path/fork.h"
+#include "path/rays.h"
+#include "path/survive.h"
+#include "path/wave.h"
+
+/* Planes of the pool, from its first slot on. */
+typedef struct Pool {
+    global uint* states;  /* WAVE_* */
+    global uint* pixels;  /* of a slot, counted over the tiles of the launch */
+    global uint* taken;   /* samples that this pixel has had */
+    global uint* paths;   /* PathState */
+    global uint* hits;    /* Hit */
+    global uint* pending; /* PendingLight */
+} Pool;
+
+#define POOL_LOAD(kind, planes, member)                 \
+    do {                                                \
+        Planes pool_planes = planes_load(planes, i);    \
+        planes_##kind(&pool_planes, member);            \
+    } while (0)
+#define POOL_STORE(kind, planes, member)                \
+    do {                                                \
+        Planes pool_planes = planes_store(planes, i);   \
+        planes_##kind(&pool_planes, member);            \
+    } while (0)
+
+/* The list of work of a launch. */
+typedef struct WaveWork {
+    const Frame* frame;
+    global const TileWork* tiles;
+    uint pixel_count; /* of all tiles */
+    ulong first_sample;
+} WaveWork;
+
+/* The pixel of a slot. */
+typedef struct WavePixel {
+    uint x, y, count; /* samples that it is given */
+    ulong first;      /* the first of them */
+} WavePixel;
+
+/* 0: it lies outside the crop, or is given no samples. */
+TRIAD_FUNCTION int wave_pixel(const WaveWork* work, uint pixel, WavePixel* p) {
+    const global TileWork* tile = work->tiles + pixel / FILM_TILE_PIXELS;
+    const uint in_tile = pixel % FILM_TILE_PIXELS;
+    const int inside =
+        sample_pixel(work->frame->crop, tile->tile * FILM_TILE_PIXELS + in_tile, &p->x, &p->y);
+    const uint set = (p->x ^ p->y) & 1u;
+    p->count = tile->sample_count[set];
+    p->first = work->first_sample + tile->first_sample[set];
+    return inside && p->count != 0u;
+}
+
+/* Samples become paths. */
+TRIAD_FUNCTION_PER_CALL void wave_start(const Scene* scene, const WaveWork* work, const Pool* pool, size_t i) {
+    if (pool->states[i] == WAVE_START) {
+        WavePixel p;
+        wave_pixel(work, pool->pixels[i], &p);
+        const CameraSample sample = camera_sample(scene, work->frame, p.x, p.y, p.first + pool->taken[i]);
+        PathState path = path_start(scene, &sample);
+        POOL_STORE(path, pool->paths, &path);
+        pool->states[i] = WAVE_EDGE;
+    }
+}
+
+/* Where edges end. */
+TRIAD_FUNCTION_PER_CALL void wave_edge(const Scene* scene, const Pool* pool, size_t i, Tally* tally) {
+    if (pool->states[i] == WAVE_EDGE) {
+        PathState path;
+        POOL_LOAD(path, pool->paths, &path);
+        Hit hit = path_closest(scene, &path, tally);
+        POOL_STORE(hit, pool->hits, &hit);
+        pool->states[i] = hit.primitive == TRIAD_NONE ? WAVE_MISS : WAVE_HIT;
+    }
+}
+
+/* What paths find and do at the ends of their edges. */
+TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, size_t i, Tally* tally) {
+    if (pool->states[i] == WAVE_HIT) {
+        PathState path;
+        Hit hit;
+        POOL_LOAD(path, pool->paths, &path);
+        POOL_LOAD(hit, pool->hits, &hit);
+        uint state = WAVE_END;
+        const SamplerBlock u = path_numbers(&path);
+        Vertex vertex = path_surface(scene, &path, &hit, tally);
+        if (!path_unlit(scene, &path, &vertex, tally)) {
+            path_emission(scene, &path, &vertex, tally);
+            if (path_is_longest(scene, &path)) {
+                state |= WAVE_LONGEST;
+            } else {
+                path_fork(scene, &path, &vertex);
+                const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
+                path_gather(scene, &path, &vertex, &bsdf);
+                PendingLight light;
+                if (path_connect(scene, &path, &vertex, &bsdf, &u, &light)) {
+                    POOL_STORE(light, pool->pending, &light);
+                    state |= WAVE_LIGHT;
+                }
+                Scatter scatter;
+                if (path_scatter(scene, &path, &vertex, &bsdf, &u, &scatter, tally) &&
+                    path_survive(scene, &path, &vertex, &scatter, &u, tally))
+                    state = (state & WAVE_LIGHT) | WAVE_EDGE;
+            }
+        }
+        POOL_STORE(path, pool->paths, &path);
+        pool->states[i] = state;
+    }
+}
+
+/* The light of vertices arrives where nothing is in its way. */
+TRIAD_FUNCTION_PER_CALL void wave_shadow(const Scene* scene, const Pool* pool, size_t i, Tally* tally) {
+    if (pool->states[i] & WAVE_LIGHT) {
+        pool->states[i] &= ~WAVE_LIGHT;
+        PendingLight light;
+        POOL_LOAD(light, pool->pending, &light);
+        if (!path_occluded(scene, &light, tally)) {
+            PathState path;
+            POOL_LOAD(path, pool->paths, &path);
+            path_arrive(scene, &path, &light, tally);
+            POOL_STORE(found, pool->paths, &path);
+        }
+    }
+}
+
+/* Where samples go. */
+typedef struct WaveFilm {
+    global long *sums, *half_sums; /* of the pixels from first_pixel on */
+    global uint* samples;
+    uint first_pixel;
+} WaveFilm;
+
+TRIAD_FUNCTION_PER_CALL void wave_add(const Scene* scene, const WaveWork* work, const WaveFilm* film,
+                                      const WavePixel* p, uint had, const PathState* path, Tally* tally) {
+    const Frame* frame = work->frame;
+    const CameraSample sample = camera_sample(scene, frame, p->x, p->y, p->first + had);
+    const size_t pixel = (size_t)p->y * frame->crop[2] + p->x - film->first_pixel;
+    film_add(frame, film->sums + pixel * frame->bins[0] * frame->bins[1] * FILM_CHANNELS,
+             film->half_sums + pixel * 3, &sample.name, path_value(path, sample.weight), tally);
+}
+
+/* Paths that have ended go on with another wavelength, or to the film. next: pixel of the list. 1: the slot
+ * has nothing to do any more. */
+TRIAD_FUNCTION_PER_CALL int wave_end(const Scene* scene, const WaveWork* work, const WaveFilm* film,
+                                     const Pool* pool, size_t i, volatile global uint* next, Tally* tally) {
+    uint state = pool->states[i];
+    int wants_pixel = state == WAVE_NEW;
+    if (state == WAVE_MISS || (state & ~WAVE_LONGEST) == WAVE_END) {
+        PathState path;
+        POOL_LOAD(path, pool->paths, &path);
+        if (state & WAVE_LONGEST) path_cut(&path, tally);
+        if (state == WAVE_MISS) {
+            Hit hit;
+            hit.primitive = TRIAD_NONE;
+            path_miss(scene, &path, &hit, tally);
+        }
+        if (path_next_wavelength(&path)) {
+            POOL_STORE(path, pool->paths, &path);
+            state = WAVE_EDGE;
+        } else {
+            WavePixel p;
+            wave_pixel(work, pool->pixels[i], &p);
+            const uint had = pool->taken[i];
+            wave_add(scene, work, film, &p, had, &path, tally);
+            pool->taken[i] = had + 1u;
+            state = WAVE_START;
+            wants_pixel = had + 1u == p.count;
+        }
+    }
+    while (wants_pixel) {
+        const uint pixel = atomic_inc(next);
+        WavePixel p;
+        if (pixel >= work->pixel_count) {
+            state = WAVE_IDLE;
+            wants_pixel = 0;
+        } else if (wave_pixel(work, pixel, &p)) {
+            film->samples[(size_t)p.y * work->frame->crop[2] + p.x] += p.count;
+            pool->pixels[i] = pixel;
+            pool->taken[i] = 0u;
+            state = WAVE_START;
+            wants_pixel = 0;
+        }
+    }
+    pool->states[i] = state;
+    return state == WAVE_IDLE;
+}
+
+#endif
