@@ -28,7 +28,8 @@ TRIAD_FUNCTION uint random_mix(uint x) {
     return x ^ (x >> 16);
 }
 /* pcg4d (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering"). */
-TRIAD_FUNCTION UVec4 random_pcg4d(UVec4 v) {
+TRIAD_FUNCTION UVec4 random_pcg4d(UVec4 name) {
+    UVec4 v = name;
     v.x = v.x * 1664525u + 1013904223u;
     v.y = v.y * 1664525u + 1013904223u;
     v.z = v.z * 1664525u + 1013904223u;

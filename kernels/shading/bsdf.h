@@ -291,15 +291,16 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2
 #if TRIAD_SPECULAR
     if (u_lobe < b->p_specular) {
         float cap = b->cap;
+        Vec2 point = u;
 #if BSDF_TRANSMISSION
         if (b->p_cap > 0.0f) {
             uint bounded = u.y < b->p_cap;
-            u.y = bounded ? u.y / b->p_cap : (u.y - b->p_cap) / (1.0f - b->p_cap);
-            u.y = math_min(u.y, 0x1.fffffep-1f);
+            point.y = bounded ? u.y / b->p_cap : (u.y - b->p_cap) / (1.0f - b->p_cap);
+            point.y = math_min(point.y, 0x1.fffffep-1f);
             cap = bounded ? cap : 1.0f;
         }
 #endif
-        Vec3 h = b->smooth ? vec3_make(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, u);
+        Vec3 h = b->smooth ? vec3_make(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, point);
         float c = b->smooth ? wo.z : math_min(vec3_dot(wo, h), 1.0f);
         Colour reflected, transmitted;
         bsdf_microfacet(b, c, &reflected, &transmitted);

@@ -40,13 +40,14 @@ TRIAD_FUNCTION Vec3 scale_to_one(Vec3 v) {
 
 /* v / |v|, or `fallback` when v is zero or not finite. */
 TRIAD_FUNCTION Vec3 normalize_or(Vec3 v, Vec3 fallback) {
+    Vec3 scaled = v;
     float length2 = vec3_dot(v, v);
     if (!(length2 > 0x1.0p-80f && length2 < 0x1.0p80f)) { /* rare; scaling by a power of two changes no bit */
-        v = scale_to_one(v);
-        length2 = vec3_dot(v, v);
+        scaled = scale_to_one(v);
+        length2 = vec3_dot(scaled, scaled);
         if (!(length2 >= 1.0f && length2 < 16.0f)) return fallback;
     }
-    return vec3_scale(v, 1.0f / sqrt(length2));
+    return vec3_scale(scaled, 1.0f / sqrt(length2));
 }
 
 #endif

@@ -77,8 +77,8 @@ TRIAD_FUNCTION Bodies bodies_proved(const Scene* scene, Bodies b, uint inner) {
 
 /* Beyond a surface with the body `inner` on this side and `outer` on the other (either may be TRIAD_NONE). */
 TRIAD_FUNCTION Bodies bodies_beyond(const Scene* scene, Bodies b, uint inner, uint outer) {
-    if (inner != TRIAD_NONE) b = bodies_leave(b, inner);
-    return outer != TRIAD_NONE ? bodies_enter(scene, b, outer) : b;
+    const Bodies left = inner != TRIAD_NONE ? bodies_leave(b, inner) : b;
+    return outer != TRIAD_NONE ? bodies_enter(scene, left, outer) : left;
 }
 
 /* The index of refraction of what fills the space, at a wavelength in nm (0: all of them, at the d line). */

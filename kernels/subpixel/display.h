@@ -36,8 +36,8 @@ TRIAD_FUNCTION Vec4 display_of_bin(global const DisplaySlab* slab, Vec4 radiance
 }
 
 /* Display-linear light, from what the taps have added up; lobes below zero may have left [0, 1]. */
-TRIAD_FUNCTION Vec4 display_of_sum(global const DisplaySlab* slab, Vec4 v) {
-    v.w = math_saturate(v.w);
+TRIAD_FUNCTION Vec4 display_of_sum(global const DisplaySlab* slab, Vec4 sum) {
+    Vec4 v = vec3_with(vec4_xyz(sum), math_saturate(sum.w));
     if (slab->order == TONE_PER_PIXEL) return display_light(slab, v);
     if (slab->order == TONE_BIN_ENCODED)
         v = vec3_with(srgb_decode3(vec3_make(math_saturate(v.x), math_saturate(v.y), math_saturate(v.z))),

@@ -25,10 +25,10 @@ TRIAD_FUNCTION Vec3 tone_map_gamut(Vec3 c) {
 /* Khronos PBR Neutral Tone Mapper, specification of 2024 (github.com/KhronosGroup/ToneMapping). Keeps the
  * colours of materials lit in grey light: below the start of compression only the Fresnel reflection F90 =
  * .04 is taken away. */
-TRIAD_FUNCTION Vec3 tone_map_khronos(Vec3 c) {
+TRIAD_FUNCTION Vec3 tone_map_khronos(Vec3 colour) {
     const float start = 0.8f - 0.04f, d = 1.0f - start, desaturation = 0.15f;
-    const float x = math_min(c.x, math_min(c.y, c.z));
-    c = vec3_sub(c, vec3_splat(x < 0.08f ? x - 6.25f * x * x : 0.04f));
+    const float x = math_min(colour.x, math_min(colour.y, colour.z));
+    Vec3 c = vec3_sub(colour, vec3_splat(x < 0.08f ? x - 6.25f * x * x : 0.04f));
     const float peak = vec3_largest(c);
     if (peak < start) return c;
     const float new_peak = 1.0f - d * d / (peak + d - start);
