@@ -89,11 +89,17 @@ bool holds_for(const PackedScene& packed, const RenderSettings& settings) {
 }
 
 std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSettings& settings,
-                                            std::shared_ptr<const PackedScene> before) {
-    if (before && holds_for(*before, settings)) return before;
+                                            std::shared_ptr<const PackedScene> before, BvhFormats formats) {
+    if (before) {
+        const BvhFormats& there = before->bvh.formats;
+        if (std::includes(there.begin(), there.end(), formats.begin(), formats.end()) &&
+            holds_for(*before, settings))
+            return before;
+        formats.insert(there.begin(), there.end());
+    }
     const bool share = before && packs_alike(before->settings, settings);
     auto packed = std::make_shared<PackedScene>(
-        pack(scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}));
+        pack(scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}, formats));
     if (share) packed->packings = before->packings + 1;
     return packed;
 }
