@@ -1,7 +1,9 @@
 #include "bvh/nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace triad::bvh {
 namespace {
@@ -16,6 +18,16 @@ int cell_exponent(float low, float high) {
     int exponent = std::max(least_exponent, std::ilogb(std::max(extent, 0x1p-120)) - 8);
     while (std::ldexp(grid_cells, exponent) < extent) ++exponent;
     return exponent;
+}
+
+/// What a grid can span.
+Box finite(Box box) {
+    constexpr float most = std::numeric_limits<float>::max();
+    for (int a = 0; a < 3; ++a) {
+        box.lo[a] = std::clamp(box.lo[a], -most, most);
+        box.hi[a] = std::clamp(box.hi[a], -most, most);
+    }
+    return box;
 }
 
 }  // namespace
@@ -33,12 +45,14 @@ void write_node(std::span<const Child> children, dev::Bvh8Node& node) {
 
 void write_node(std::span<const Child> children, dev::Bvh4Node& node) {
     std::fill(std::begin(node.child), std::end(node.child), BVH_EMPTY);
+    if (children.empty()) return;
+    std::array<Box, 4> boxes;
     Box all;
     for (std::size_t i = 0; i < children.size(); ++i) {
-        all.add(children[i].box);
+        boxes[i] = finite(children[i].box);
+        all.add(boxes[i]);
         node.child[i] = children[i].word;
     }
-    if (children.empty()) return;
     for (int a = 0; a < 3; ++a) {
         const int exponent = cell_exponent(all.lo[a], all.hi[a]);
         node.origin[a] = all.lo[a];
@@ -47,8 +61,8 @@ void write_node(std::span<const Child> children, dev::Bvh4Node& node) {
             return std::ldexp(double(plane) - double(all.lo[a]), -exponent);
         };
         for (std::size_t i = 0; i < children.size(); ++i) {
-            const auto low = std::uint32_t(std::floor(cell(children[i].box.lo[a])));
-            const auto high = std::uint32_t(std::ceil(cell(children[i].box.hi[a])));
+            const auto low = std::uint32_t(std::floor(cell(boxes[i].lo[a])));
+            const auto high = std::uint32_t(std::ceil(cell(boxes[i].hi[a])));
             node.bounds[2 * a] |= low << (8 * i);
             node.bounds[2 * a + 1] |= std::min<std::uint32_t>(high, grid_cells) << (8 * i);
         }

@@ -136,6 +136,21 @@ class Tracer {
     Program program_;
 };
 
+/// While it lives the device walks nodes of another format.
+class WithFormat {
+  public:
+    WithFormat(Device& device, BvhFormat format) : device_(device), before_(format_of(device)) {
+        set_format(device, format);
+    }
+    ~WithFormat() { set_format(device_, before_); }
+    WithFormat(const WithFormat&) = delete;
+    WithFormat& operator=(const WithFormat&) = delete;
+
+  private:
+    Device& device_;
+    const BvhFormat before_;
+};
+
 inline dev::Ray ray(const dvec3& origin, const dvec3& direction,
                     float t_max = std::numeric_limits<float>::infinity()) {
     dev::Ray r{};

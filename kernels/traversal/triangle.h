@@ -26,7 +26,7 @@ typedef int TriangleMask;
 #else
 typedef float4 TriangleFloat;
 typedef int4 TriangleMask;
-#define TRIANGLE_LOAD(lane, row) vload4(0, row)
+#define TRIANGLE_LOAD(lane, row) vload4(0, (row) + (lane))
 #endif
 
 typedef struct TriangleHits {

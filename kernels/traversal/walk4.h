@@ -1,7 +1,7 @@
 /* The walk over nodes of four boxes, one at a time: part of traverse.h. */
 #ifndef TRIAD_TRAVERSAL_WALK4_H
 #define TRIAD_TRAVERSAL_WALK4_H
-#include "traversal/traverse.h"
+#include "traversal/scene.h"
 #if TRIAD_BVH4
 
 /* Tests the triangles of a leaf; with `any` returns 1 at the first hit, else updates `best` and returns 0. */

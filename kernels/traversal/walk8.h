@@ -1,7 +1,7 @@
 /* The walk over nodes of eight boxes, which are tested all at once: part of traverse.h. */
 #ifndef TRIAD_TRAVERSAL_WALK8_H
 #define TRIAD_TRAVERSAL_WALK8_H
-#include "traversal/traverse.h"
+#include "traversal/scene.h"
 #if !TRIAD_BVH4
 
 /* Tests the block of a leaf; with `any` returns 1 at the first hit, else updates `best` and returns 0. */
