@@ -5,7 +5,7 @@
 namespace triad::bvh {
 
 Collapse::Collapse(const std::vector<BinaryNode>& nodes, int width)
-    : nodes_(nodes), width_(width), plans_(nodes.size()), waiting_(nodes.size()) {
+    : nodes_(nodes), width_(width), plans_(nodes.size()), waiting_(nodes.size()), heights_(nodes.size()) {
     for (std::size_t n = nodes.size(); n-- > 0;) {
         plan(n);
         if (nodes[n].count) continue;
@@ -15,15 +15,18 @@ Collapse::Collapse(const std::vector<BinaryNode>& nodes, int width)
         for (int i = 0; i < count; ++i)
             waiting_[n] = std::max(waiting_[n], waiting_[children[std::size_t(i)]]);
         waiting_[n] = std::uint16_t(waiting_[n] + count - 1);
+        heights_[n] = std::uint8_t(1 + std::max(heights_[n + 1], heights_[nodes[n].right_or_first]));
     }
 }
 
 int Collapse::children(std::uint32_t node, unsigned room, Children& children) const {
     int count = 0;
-    if (nodes_[node].count || waiting_[node] <= room) {
-        distribute(node, width_, children, count);
-        return count;
-    }
+    distribute(node, width_, children, count);
+    if (waiting_[node] <= room) return count;
+    unsigned highest = 0;
+    for (int i = 0; i < count; ++i)
+        highest = std::max<unsigned>(highest, heights_[children[std::size_t(i)]]);
+    if (unsigned(count) - 1 + highest <= room) return count;
     children[0] = node + 1, children[1] = nodes_[node].right_or_first;
     return 2;
 }
