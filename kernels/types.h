@@ -44,10 +44,10 @@ typedef struct Bvh8Node {
 } Bvh8Node;
 TRIAD_SIZE(Bvh8Node, 256);
 
-/* Four boxes on a grid of bytes: byte c of bounds[axis * 2] is the low, of bounds[axis * 2 + 1] the high plane
- * of child c, in cells from the grid's origin. Byte `axis` of cells is the biased exponent of a cell's size, as
- * float has it. After Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through compressed
- * wide BVHs" (2017). */
+/* Four boxes on a grid of bytes: byte c of bounds[axis * 2] is the low, of bounds[axis * 2 + 1] the high
+ * plane of child c, in cells from the grid's origin. Byte `axis` of cells is the biased exponent of a cell's
+ * size, as float has it. After Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through
+ * compressed wide BVHs" (2017). */
 typedef struct Bvh4Node {
     float origin[3];
     uint cells;
@@ -375,10 +375,10 @@ typedef struct Frame {
     uint max_depth;   /* edges; 0 = no limit */
     uint transparent; /* 1: the camera does not see the environment; alpha is 0 there */
     uint light_count;
-    float quanta;     /* fixed-point units per unit of radiance: a power of two */
+    float quanta;           /* fixed-point units per unit of radiance: a power of two */
     uint root[BVH_FORMATS]; /* node of the world's tree, by TRIAD_BVH4 */
-    CdfShape lights;  /* the tree that lights are picked by */
-    float roulette;   /* 1 / throughput below which roulette kills, in proportion */
+    CdfShape lights;        /* the tree that lights are picked by */
+    float roulette;         /* 1 / throughput below which roulette kills, in proportion */
     uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
     uint wavelength_from_camera; /* 1: every path has a wavelength from its start on */
     uint ray_start;              /* RAY_START_* */

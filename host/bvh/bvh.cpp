@@ -170,8 +170,7 @@ std::optional<BvhFormat> find_bvh_format(const std::string& name) {
 
 BvhRoots build_bvh(std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances,
                    float origin_reach, BvhPool& pool) {
-    const BinaryTree tree =
-        build_binary_tree(triangles, references_of(triangles, instances), most_height);
+    const BinaryTree tree = build_binary_tree(triangles, references_of(triangles, instances), most_height);
     const std::vector<std::uint32_t> leaves = LeafWriter(tree, triangles, instances, pool).write();
     BvhRoots roots;
     roots.fill(TRIAD_NONE);

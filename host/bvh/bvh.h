@@ -1,6 +1,6 @@
 #pragma once
-/// Bounding volume hierarchies in the layouts of kernels/types.h: binned SAH on all cores, collapsed to four or
-/// eight children.
+/// Bounding volume hierarchies in the layouts of kernels/types.h: binned SAH on all cores, collapsed to four
+/// or eight children.
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -27,8 +27,8 @@ inline const BvhFormats all_bvh_formats{BvhFormat::bvh8, BvhFormat::bvh4};
 const char* name_of(BvhFormat format);
 std::optional<BvhFormat> find_bvh_format(const std::string& name);
 
-/// Indices of a tree's root among the nodes of each format, by the format's number; TRIAD_NONE where there are
-/// none.
+/// Indices of a tree's root among the nodes of each format, by the format's number; TRIAD_NONE where there
+/// are none.
 using BvhRoots = std::array<std::uint32_t, BVH_FORMATS>;
 
 /// Trees over one pool of nodes and blocks, so that instances of many meshes share the arrays of the device.

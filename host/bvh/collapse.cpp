@@ -24,8 +24,7 @@ int Collapse::children(std::uint32_t node, unsigned room, Children& children) co
     distribute(node, width_, children, count);
     if (waiting_[node] <= room) return count;
     unsigned highest = 0;
-    for (int i = 0; i < count; ++i)
-        highest = std::max<unsigned>(highest, heights_[children[std::size_t(i)]]);
+    for (int i = 0; i < count; ++i) highest = std::max<unsigned>(highest, heights_[children[std::size_t(i)]]);
     if (unsigned(count) - 1 + highest <= room) return count;
     children[0] = node + 1, children[1] = nodes_[node].right_or_first;
     return 2;

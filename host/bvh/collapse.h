@@ -12,8 +12,8 @@ constexpr int most_width = 8;
 
 /// The cheapest collapse by the surface-area heuristic: Ylitie, Karras, Laine, "Efficient incoherent ray
 /// traversal on GPUs through compressed wide BVHs" (2017), equations 3 to 7. The leaves are fixed here, so
-/// that the areas of the wide nodes are all that counts. Where a walk would leave more children waiting than its
-/// stack has room for, the deepest parts keep nodes of two children.
+/// that the areas of the wide nodes are all that counts. Where a walk would leave more children waiting than
+/// its stack has room for, the deepest parts keep nodes of two children.
 class Collapse {
   public:
     using Children = std::array<std::uint32_t, most_width>;
@@ -22,8 +22,8 @@ class Collapse {
     Collapse(const std::vector<BinaryNode>& nodes, int width);
 
     /// Writes the children of the wide node at binary node `node` and returns how many; a leaf is its own
-    /// child. `room`: children that may wait on the stack of a walk below and with `node`, which leaves room -
-    /// (count - 1) to each of these. It is kept to wherever it is not less than the height of `node`.
+    /// child. `room`: children that may wait on the stack of a walk below and with `node`, which leaves room
+    /// - (count - 1) to each of these. It is kept to wherever it is not less than the height of `node`.
     int children(std::uint32_t node, unsigned room, Children& children) const;
 
     /// Children that wait at most, below and with `node`, if nothing limits them.

@@ -15,10 +15,10 @@ struct Child {
 };
 
 /// Of a layout: children of a node, and children that may wait while one tree is walked. Boxes are padded on
-/// each side by `padding` of the largest coordinate in play. Worst cases in units of 2^-24 of that coordinate: 13 for
-/// the slab test of Bvh8Node (one fma per plane, 2.5 ulp for the reciprocal) and 15 for that of Bvh4Node (another
-/// fma for the grid's corner), 17 for the point that the triangle test finds (translation, shear,
-/// interpolation); together less than 32, and less than 64.
+/// each side by `padding` of the largest coordinate in play. Worst cases in units of 2^-24 of that
+/// coordinate: 13 for the slab test of Bvh8Node (one fma per plane, 2.5 ulp for the reciprocal) and 15 for
+/// that of Bvh4Node (another fma for the grid's corner), 17 for the point that the triangle test finds
+/// (translation, shear, interpolation); together less than 32, and less than 64.
 template <class Node>
 struct Layout;
 template <>

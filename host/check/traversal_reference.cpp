@@ -194,7 +194,8 @@ void same_hits_in_every_format(Check& check) {
     }
     std::size_t hit = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        check.holds(std::memcmp(&hits[0][i], &hits[1][i], sizeof(dev::Hit)) == 0, "hit of ray ", i, " differs");
+        check.holds(std::memcmp(&hits[0][i], &hits[1][i], sizeof(dev::Hit)) == 0, "hit of ray ", i,
+                    " differs");
         check.equal(occluded[1][i], occluded[0][i], "occlusion of ray ", i);
         hit += occluded[0][i];
     }

@@ -50,12 +50,9 @@ std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format) 
 void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict) {
     const fs::path path = path_of(device, format);
     if (path.empty()) return;
-    const nlohmann::json json{{"schema", schema},
-                              {"device", device.name},
-                              {"driver", device.driver},
-                              {"platform", device.platform},
-                              {"format", name_of(format)},
-                              {"wrong", verdict.wrong}};
+    const nlohmann::json json{{"schema", schema},          {"device", device.name},
+                              {"driver", device.driver},   {"platform", device.platform},
+                              {"format", name_of(format)}, {"wrong", verdict.wrong}};
     try {
         fs::create_directories(path.parent_path());
         write_file(path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");

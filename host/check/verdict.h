@@ -13,8 +13,8 @@ struct Verdict {
     std::vector<std::string> wrong;  ///< names of the cases that failed; empty: the device is right
 };
 
-/// What an earlier check found; none when there was no check of this device with this driver, these kernels and
-/// this format of nodes.
+/// What an earlier check found; none when there was no check of this device with this driver, these kernels
+/// and this format of nodes.
 std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format);
 
 /// A cache folder that cannot be written costs a warning only.

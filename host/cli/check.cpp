@@ -64,7 +64,7 @@ Exit run(const CheckOptions& o) {
                         {"seconds", r.seconds}});
     }
     if (!o.json.empty()) write_report(o.json, "check", &device.info(), rows);
-    if (o.only.empty() && o.level != CheckLevel::tiny) 
+    if (o.only.empty() && o.level != CheckLevel::tiny)
         keep_verdict(device.info(), format, verdict_of(results));
     const std::string counts = std::to_string(results.size() - wrong - absent) + " right, " +
                                std::to_string(wrong) + " wrong, " + std::to_string(absent) +

@@ -34,10 +34,10 @@ CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format) {
         if (!format) bad("--format", name, "bvh8 or bvh4");
     };
     return command
-        .add_option_function<std::string>(
-            "--format", parse,
-            "Nodes that rays walk: bvh8 (eight boxes at once: CPUs) or bvh4 (small and scalar: GPUs). Pictures are "
-            "the same bit for bit; default: what suits the device")
+        .add_option_function<std::string>("--format", parse,
+                                          "Nodes that rays walk: bvh8 (eight boxes at once: CPUs) or bvh4 "
+                                          "(small and scalar: GPUs). Pictures are "
+                                          "the same bit for bit; default: what suits the device")
         ->type_name("NAME");
 }
 

@@ -236,8 +236,8 @@ class Device {
     std::size_t preferred_local() const;
     void set_preferred_local(std::size_t local);
 
-    /// What every program on this device is compiled with, unless its own options say otherwise: the shape that
-    /// suits it. Empty at first.
+    /// What every program on this device is compiled with, unless its own options say otherwise: the shape
+    /// that suits it. Empty at first.
     const Options& shape() const;
     void set_shape(Options shape);
 

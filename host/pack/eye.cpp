@@ -95,15 +95,14 @@ std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSett
         if (std::includes(there.begin(), there.end(), formats.begin(), formats.end())) return before;
         // For the same eye again, so that all devices see the same scene.
         formats.insert(there.begin(), there.end());
-        auto packed =
-            std::make_shared<PackedScene>(pack(scene, before->settings, before->surfaces, formats));
+        auto packed = std::make_shared<PackedScene>(pack(scene, before->settings, before->surfaces, formats));
         packed->packings = before->packings;
         return packed;
     }
     const bool share = before && packs_alike(before->settings, settings);
     if (before) formats.insert(before->bvh.formats.begin(), before->bvh.formats.end());
-    auto packed = std::make_shared<PackedScene>(pack(
-        scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}, formats));
+    auto packed = std::make_shared<PackedScene>(
+        pack(scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}, formats));
     if (share) packed->packings = before->packings + 1;
     return packed;
 }

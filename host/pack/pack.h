@@ -50,7 +50,7 @@ struct PackedScene {
         0.0};       ///< the render origin, in world space: subtracted in double before anything becomes float
     Bounds bounds;  ///< of what is drawn, rebased
     Bounds reach;   ///< rebased: where rays may start; boxes of the trees are padded for it
-    BvhRoots roots{};  ///< of the world's tree
+    BvhRoots roots{};            ///< of the world's tree
     bool instances = false;      ///< some mesh is instanced rather than flattened
     std::size_t duplicates = 0;  ///< triangles that coincide exactly with one of a lower id, and were dropped
     int quanta_log2 = 0;         ///< fixed-point units of the film per unit of radiance

@@ -71,8 +71,8 @@ TRIAD_FUNCTION int traversal_is_better(const Hit* best, float t, uint instance, 
                                             (instance == best->instance && primitive < best->primitive)));
 }
 
-/* What a block's lane that is hit is worth. With `any` returns 1 when the ray stops there, else updates `best` and
- * returns 0. */
+/* What a block's lane that is hit is worth. With `any` returns 1 when the ray stops there, else updates
+ * `best` and returns 0. */
 TRIAD_FUNCTION int traversal_take(const Traversal* scene, uint leaf, uint lane, float t, float u, float v,
                                   uint instance, Hit* best, const int any) {
     const uint primitive = scene->blocks[leaf & BVH_INDEX].primitive[lane];

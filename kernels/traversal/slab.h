@@ -1,8 +1,8 @@
 /* A ray against the boxes of a node.
  *
- * One fma per plane over boxes that the builder padded for its rounding (host/bvh/nodes.h), so that a box is never
- * missed whose triangle is hit, and a box's entry is never beyond the t of a triangle inside: results do not
- * depend on the order of visits, nor on the format of nodes.
+ * One fma per plane over boxes that the builder padded for its rounding (host/bvh/nodes.h), so that a box is
+ * never missed whose triangle is hit, and a box's entry is never beyond the t of a triangle inside: results
+ * do not depend on the order of visits, nor on the format of nodes.
  */
 #ifndef TRIAD_TRAVERSAL_SLAB_H
 #define TRIAD_TRAVERSAL_SLAB_H
@@ -12,9 +12,10 @@
  * inverse). */
 typedef struct SlabRay {
     float inverse[3];
-    float offset[3];  /* -origin * inverse */
-    uint near_row[3]; /* first float of the row of Bvh8Node.bounds that the ray meets first; the other one is ^
-                         8 */
+    float offset[3]; /* -origin * inverse */
+    uint
+        near_row[3]; /* first float of the row of Bvh8Node.bounds that the ray meets first; the other one is ^
+                        8 */
 } SlabRay;
 
 TRIAD_FUNCTION SlabRay slab_ray(const float origin[3], const float direction[3]) {
@@ -34,14 +35,15 @@ TRIAD_FUNCTION SlabRay slab_ray(const float origin[3], const float direction[3])
 
 #if TRIAD_BVH4
 
-/* The planes of four children along an axis, as t: byte c of `near` and `far` is of child c, and t of a byte b is
- * fma(b, cell, offset). */
+/* The planes of four children along an axis, as t: byte c of `near` and `far` is of child c, and t of a byte
+ * b is fma(b, cell, offset). */
 typedef struct SlabAxis {
     float cell, offset;
     uint near, far;
 } SlabAxis;
 
-TRIAD_FUNCTION SlabAxis slab_axis(const SlabRay* ray, int axis, float origin, uint exponent, uint low, uint high) {
+TRIAD_FUNCTION SlabAxis slab_axis(const SlabRay* ray, int axis, float origin, uint exponent, uint low,
+                                  uint high) {
     const int backward = ray->inverse[axis] < 0.0f;
     SlabAxis s;
     s.cell = as_float(exponent << 23) * ray->inverse[axis];
@@ -55,9 +57,10 @@ TRIAD_FUNCTION float slab_plane(const SlabAxis* s, uint bytes, int child) {
     return fma((float)(bytes >> (8 * child) & 0xffu), s->cell, s->offset);
 }
 
-/* Four boxes: children by rising entry distance, those that the ray does not meet within [0, t_max] last. Returns
- * how many it meets. */
-TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* ray, float t_max, uint child[4]) {
+/* Four boxes: children by rising entry distance, those that the ray does not meet within [0, t_max] last.
+ * Returns how many it meets. */
+TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* ray, float t_max,
+                                   uint child[4]) {
     /* A node is four vectors of 16 bytes: as many loads. */
     global const uint4* words = (global const uint4*)node;
     const uint4 grid = words[0], xy = words[1], z = words[2], rest = words[3];
@@ -72,25 +75,26 @@ TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* r
     uint met = 0u;
 #pragma unroll
     for (int c = 0; c < 4; ++c) {
-        const float tn =
-            math_max(math_max(slab_plane(&sx, sx.near, c), slab_plane(&sy, sy.near, c)),
-                     math_max(slab_plane(&sz, sz.near, c), 0.0f));
+        const float tn = math_max(math_max(slab_plane(&sx, sx.near, c), slab_plane(&sy, sy.near, c)),
+                                  math_max(slab_plane(&sz, sz.near, c), 0.0f));
         const float tf = math_min(math_min(slab_plane(&sx, sx.far, c), slab_plane(&sy, sy.far, c)),
                                   math_min(slab_plane(&sz, sz.far, c), t_max));
-        /* An empty child is never met, and no other one infinitely far: those that are not are sorted there. */
+        /* An empty child is never met, and no other one infinitely far: those that are not are sorted there.
+         */
         const int is_met = tn <= tf && tn < INFINITY && child[c] != BVH_EMPTY;
         entry[c] = is_met ? tn : INFINITY;
         met += (uint)is_met;
     }
-#define SLAB_SORT(a, b)                                                                       \
-    if (entry[b] < entry[a]) {                                                                \
-        const float farther = entry[a];                                                       \
-        const uint other = child[a];                                                          \
-        entry[a] = entry[b], child[a] = child[b], entry[b] = farther, child[b] = other;       \
+#define SLAB_SORT(a, b)                                                                 \
+    if (entry[b] < entry[a]) {                                                          \
+        const float farther = entry[a];                                                 \
+        const uint other = child[a];                                                    \
+        entry[a] = entry[b], child[a] = child[b], entry[b] = farther, child[b] = other; \
     }
-    SLAB_SORT(0, 1) SLAB_SORT(2, 3) SLAB_SORT(0, 2) SLAB_SORT(1, 3) SLAB_SORT(1, 2)
+    SLAB_SORT(0, 1)
+    SLAB_SORT(2, 3) SLAB_SORT(0, 2) SLAB_SORT(1, 3) SLAB_SORT(1, 2)
 #undef SLAB_SORT
-    return met;
+        return met;
 }
 
 #else

@@ -58,15 +58,15 @@ TRIAD_FUNCTION TriangleRay triangle_ray(const float origin[3], const float direc
 }
 
 /* a b - c d, relative error <= 1.5 ulp (Jeannerod, Louvet, Muller 2013, algorithm 2). */
-TRIAD_FUNCTION TriangleFloat triangle_difference_of_products(TriangleFloat a, TriangleFloat b, TriangleFloat c,
-                                                             TriangleFloat d) {
+TRIAD_FUNCTION TriangleFloat triangle_difference_of_products(TriangleFloat a, TriangleFloat b,
+                                                             TriangleFloat c, TriangleFloat d) {
     const TriangleFloat cd = c * d;
     return fma(a, b, -cd) + fma(-c, d, cd);
 }
 
 /* Which of the triangles from `lane` of `block` on are hit with 0 < t <= t_max and are not the primitive
- * `skip`; their t, u, v in `hits`. Both sides count; an edge counts for both its triangles; a triangle without
- * area is never hit. */
+ * `skip`; their t, u, v in `hits`. Both sides count; an edge counts for both its triangles; a triangle
+ * without area is never hit. */
 TRIAD_FUNCTION TriangleMask triangle_intersect(global const TriangleBlock* block, uint lane,
                                                const TriangleRay* ray, float t_max, uint skip,
                                                TriangleHits* hits) {

@@ -1,7 +1,7 @@
 // triad-bench-rays: rays per second of Triad on one device, beside Embree on the same rays of the same
 // scenes.
-//   triad-bench-rays [--scene NAME] [--device SEL] [--threads N] [--local N] [--format NAME] [--size N] [--rounds N] [--json
-//   FILE]
+//   triad-bench-rays [--scene NAME] [--device SEL] [--threads N] [--local N] [--format NAME] [--size N]
+//   [--rounds N] [--json FILE]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -64,9 +64,11 @@ Options parse(int argc, char** argv) {
         else if (name == "--json")
             options.json = value;
         else
-            throw Error(Exit::usage, "There is no option " + name +
-                                         "; there are --scene, --device, --threads, --local, --format (bvh8, bvh4), --size, "
-                                         "--rounds, --clock, --kernels and --json.");
+            throw Error(
+                Exit::usage,
+                "There is no option " + name +
+                    "; there are --scene, --device, --threads, --local, --format (bvh8, bvh4), --size, "
+                    "--rounds, --clock, --kernels and --json.");
     }
     return options;
 }

@@ -42,10 +42,12 @@ TEST_F(VerdictTest, is_kept_per_device_driver_and_settings) {
     const DeviceInfo& info = test_device().info();
     const auto load_verdict = [](const DeviceInfo& of) { return triad::load_verdict(of, BvhFormat::bvh8); };
     EXPECT_FALSE(load_verdict(info));
-    keep_verdict(info, BvhFormat::bvh8, verdict_of({result_of("C1 edges", true), result_of("C14 none", std::nullopt)}));
+    keep_verdict(info, BvhFormat::bvh8,
+                 verdict_of({result_of("C1 edges", true), result_of("C14 none", std::nullopt)}));
     ASSERT_TRUE(load_verdict(info));
     EXPECT_TRUE(load_verdict(info)->wrong.empty());
-    keep_verdict(info, BvhFormat::bvh8, verdict_of({result_of("C1 edges", false), result_of("D4 slab", true)}));
+    keep_verdict(info, BvhFormat::bvh8,
+                 verdict_of({result_of("C1 edges", false), result_of("D4 slab", true)}));
     EXPECT_EQ(load_verdict(info)->wrong, std::vector<std::string>{"C1 edges"});
     DeviceInfo other = info;
     other.driver += " next";

@@ -107,7 +107,8 @@ std::vector<FilmCase> every(std::size_t step) {
 
 INSTANTIATE_TEST_SUITE_P(Some, FilmHashesOfBvh4, testing::ValuesIn(every(8)),
                          [](const auto& info) { return info.param.name; });
-// All of them take as long again as the table: --gtest_also_run_disabled_tests --gtest_filter='*FilmHashesOfBvh4*'
+// All of them take as long again as the table: --gtest_also_run_disabled_tests
+// --gtest_filter='*FilmHashesOfBvh4*'
 INSTANTIATE_TEST_SUITE_P(DISABLED_All, FilmHashesOfBvh4, testing::ValuesIn(every(1)),
                          [](const auto& info) { return info.param.name; });
 

@@ -225,7 +225,8 @@ TEST(RenderCommand, a_film_is_the_same_with_every_format_of_nodes_and_merges) {
         expect_done("render --size 32x18 --samples " + samples + " --format " + format + " --film " +
                     file.string() + ".film -o " + file.string() + ".exr --json " + file.string() + ".json");
         EXPECT_EQ(read_picture(file.string() + ".exr").metadata.at("triad:format"), format);
-        EXPECT_EQ(nlohmann::json::parse(bytes_of(file.string() + ".json")).at("rows").at(0).at("format"), format);
+        EXPECT_EQ(nlohmann::json::parse(bytes_of(file.string() + ".json")).at("rows").at(0).at("format"),
+                  format);
         return file.string() + ".film";
     };
     const std::string eight = render("bvh8", "0:4");

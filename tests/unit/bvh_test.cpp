@@ -45,7 +45,9 @@ bvh::Box box_of(const dev::Bvh4Node& n, int i) {
     for (int a = 0; a < 3 && n.child[i] != BVH_EMPTY; ++a) {
         const double cell = std::ldexp(1.0, int(n.cells >> (8 * a) & 0xff) - 127);
         // Rounded inwards: a triangle inside is inside of the exact box, too.
-        const auto plane = [&](std::uint32_t bytes) { return n.origin[a] + cell * (bytes >> (8 * i) & 0xff); };
+        const auto plane = [&](std::uint32_t bytes) {
+            return n.origin[a] + cell * (bytes >> (8 * i) & 0xff);
+        };
         box.lo[a] = std::nextafter(float(plane(n.bounds[2 * a])), INFINITY);
         box.hi[a] = std::nextafter(float(plane(n.bounds[2 * a + 1])), -INFINITY);
     }
@@ -248,8 +250,8 @@ TEST(Bvh, a_collapse_keeps_to_the_room_that_the_stack_has) {
 }
 
 /// Half areas of all wide nodes below and with `node`.
-double wide_cost(const std::vector<bvh::BinaryNode>& nodes, const bvh::Collapse& collapse,
-                 std::uint32_t node, unsigned room) {
+double wide_cost(const std::vector<bvh::BinaryNode>& nodes, const bvh::Collapse& collapse, std::uint32_t node,
+                 unsigned room) {
     if (nodes[node].count) return 0;
     bvh::Collapse::Children children;
     const int count = collapse.children(node, room, children);
