@@ -22,24 +22,51 @@ using ushort = std::uint16_t;
 
 /* ---- Traversal ---- */
 
-#define BVH_WIDTH 8
-#define BVH_EMPTY 0xffffffffu    /* child slot without a child; its box is inverted (lo = +inf, hi = -inf) */
+#define BVH_EMPTY 0xffffffffu    /* child slot without a child */
 #define BVH_LEAF 0x80000000u     /* child = BVH_LEAF | index of a TriangleBlock */
 #define BVH_INSTANCE 0x40000000u /* child = BVH_INSTANCE | index of an Instance (top level only) */
-#define BVH_INDEX 0x3fffffffu    /* else: index of a BvhNode */
+#define BVH_INDEX 0x3fffffffu    /* else: index of a node */
 #define BVH_ALPHA 0x40000000u    /* of a BVH_LEAF: some triangle is not opaque, coverage must be asked */
-#define BVH_DEPTH 9              /* levels of nodes in one tree at most; the builder keeps to it */
-#define BVH_STACK 128            /* entries of the stack: BVH_DEPTH * 7 + 1 for each of two levels */
+/* Two layouts of nodes, over the same leaves. Boxes are padded at build so that the slab test in float misses
+ * nothing. Units of the space the tree lives in (world rebased, or object). */
+#define BVH_FORMATS 2
+/* Children that wait at most while one tree is walked, nearer ones first; the builder keeps to it. With
+ * instances there are two levels of trees. */
+#define BVH8_STACK 64
+#define BVH4_STACK 40
 
-/* Eight boxes in SoA: bounds[axis * 2] are the low, bounds[axis * 2 + 1] the high planes, padded at build so
- * that the slab test in float misses nothing. Units of the space the tree lives in (world rebased, or
- * object). */
-typedef struct BvhNode {
-    float bounds[6][BVH_WIDTH];
-    uint child[BVH_WIDTH];
-    uint unused[BVH_WIDTH];
-} BvhNode;
-TRIAD_SIZE(BvhNode, 256);
+/* Eight boxes in SoA: bounds[axis * 2] are the low, bounds[axis * 2 + 1] the high planes. The box of an empty
+ * slot is inverted (lo = +inf, hi = -inf). */
+typedef struct Bvh8Node {
+    float bounds[6][8];
+    uint child[8];
+    uint unused[8];
+} Bvh8Node;
+TRIAD_SIZE(Bvh8Node, 256);
+
+/* Four boxes on a grid of bytes: byte c of bounds[axis * 2] is the low, of bounds[axis * 2 + 1] the high
+ * plane of child c, in cells from the grid's origin. Byte `axis` of cells is the biased exponent of a cell's
+ * size, as float has it. After Ylitie, Karras, Laine, "Efficient incoherent ray traversal on GPUs through
+ * compressed wide BVHs" (2017). */
+typedef struct Bvh4Node {
+    float origin[3];
+    uint cells;
+    uint bounds[6];
+    uint child[4];
+    uint unused[2];
+} Bvh4Node;
+TRIAD_SIZE(Bvh4Node, 64);
+
+/* Of the format that a program walks. */
+#ifdef __OPENCL_C_VERSION__
+#if TRIAD_BVH4
+typedef Bvh4Node BvhNode;
+#else
+typedef Bvh8Node BvhNode;
+#endif
+#else
+struct BvhNode;
+#endif
 
 /* Four triangles in SoA; a short block repeats its last triangle. vertex[corner * 3 + axis][lane].
  * `primitive` indexes the scene's Triangle array, over all meshes. */
@@ -55,8 +82,8 @@ TRIAD_SIZE(TriangleBlock, 176);
 typedef struct Instance {
     float to_world[12];
     float to_object[12];
-    uint root; /* node of the mesh's tree */
-    uint unused[7];
+    uint root[BVH_FORMATS]; /* node of the mesh's tree, by TRIAD_BVH4 */
+    uint unused[6];
 } Instance;
 TRIAD_SIZE(Instance, 128);
 
@@ -348,17 +375,17 @@ typedef struct Frame {
     uint max_depth;   /* edges; 0 = no limit */
     uint transparent; /* 1: the camera does not see the environment; alpha is 0 there */
     uint light_count;
-    float quanta;     /* fixed-point units per unit of radiance: a power of two */
-    uint root;        /* node of the world's tree */
-    CdfShape lights;  /* the tree that lights are picked by */
-    float roulette;   /* 1 / throughput below which roulette kills, in proportion */
+    float quanta;           /* fixed-point units per unit of radiance: a power of two */
+    uint root[BVH_FORMATS]; /* node of the world's tree, by TRIAD_BVH4 */
+    CdfShape lights;        /* the tree that lights are picked by */
+    float roulette;         /* 1 / throughput below which roulette kills, in proportion */
     uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
     uint wavelength_from_camera; /* 1: every path has a wavelength from its start on */
     uint ray_start;              /* RAY_START_* */
     RayFilterShape ray_filter;
     uint photon_map; /* PHOTON_MAP_*, or 0: paths gather no photons */
 } Frame;
-TRIAD_SIZE(Frame, 336);
+TRIAD_SIZE(Frame, 340);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling

@@ -11,12 +11,13 @@ namespace triad {
 
 class Case : public testing::TestWithParam<CheckCase> {};
 
-TEST_P(Case, is_right) {
-    const CheckResult result = run_case(test_device(), GetParam(), CheckLevel::full);
+inline void expect_right(const CheckResult& result) {
     for (const std::string& failure : result.failures) ADD_FAILURE() << failure;
     EXPECT_TRUE(result.ok.value_or(false))
         << result.value << " is more than " << result.bound << ", " << result.what;
 }
+
+TEST_P(Case, is_right) { expect_right(run_case(test_device(), GetParam(), CheckLevel::full)); }
 
 /// Those that some kernel can answer.
 inline std::vector<CheckCase> answerable(std::vector<CheckCase> cases) {

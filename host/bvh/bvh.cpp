@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 
 #include "base/parallel_for.h"
 #include "bvh/binary_tree.h"
 #include "bvh/collapse.h"
+#include "bvh/nodes.h"
 
 namespace triad {
 namespace {
@@ -15,14 +15,9 @@ using namespace bvh;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Of the largest coordinate in play, on each side of a box. Worst cases in units of 2^-24 of that
-/// coordinate: 13 for the slab test (one fma per plane, 2.5 ulp for the reciprocal), 17 for the point that
-/// the triangle test finds (translation, shear, interpolation); together less than 32.
-constexpr float padding = 0x1p-19f;
-
-/// Height of the binary tree when the collapse may choose freely, and when a collapse that takes three levels
-/// at a time must keep to BVH_DEPTH.
-constexpr unsigned free_height = 48, strict_height = 3 * BVH_DEPTH;
+/// Levels of inner nodes of the binary tree: no more than may wait, so that every collapse can keep to that.
+constexpr unsigned most_height = BVH4_STACK;
+static_assert(most_height <= BVH8_STACK);
 
 /// What the builder's sums and differences of coordinates, and bins between them, hold as floats.
 constexpr float most_coordinate = 0x1p125f;
@@ -55,52 +50,23 @@ Box box_of(const Bounds& bounds) {
     return box;
 }
 
-/// Writes the wide tree, depth first, so that what is walked together lies together.
-class Emitter {
+/// Writes the blocks of all leaves, in the order of the tree.
+class LeafWriter {
   public:
-    Emitter(const BinaryTree& tree, const Collapse& collapse, std::span<const BvhTriangle> triangles,
-            std::span<const BvhInstance> instances, float origin_reach, BvhPool& pool)
-        : tree_(tree),
-          collapse_(collapse),
-          triangles_(triangles),
-          instances_(instances),
-          reach_(origin_reach),
-          pool_(pool) {}
+    LeafWriter(const BinaryTree& tree, std::span<const BvhTriangle> triangles,
+               std::span<const BvhInstance> instances, BvhPool& pool)
+        : tree_(tree), triangles_(triangles), instances_(instances), pool_(pool) {}
 
-    std::uint32_t emit_node(std::uint32_t from, unsigned depth) {
-        assert(depth < BVH_DEPTH);
-        Collapse::Children children;
-        int count = 0;
-        if (!tree_.nodes.empty()) count = collapse_.children(from, children);
-        const auto area = [&](std::uint32_t c) { return tree_.nodes[c].box.half_area(); };
-        std::stable_sort(children.begin(), children.begin() + count,
-                         [&](auto a, auto b) { return area(a) > area(b); });
-        const std::size_t index = pool_.nodes.size();
-        dev::BvhNode node{};
-        for (int i = 0; i < BVH_WIDTH; ++i) {
-            node.child[i] = BVH_EMPTY;
-            for (int a = 0; a < 3; ++a) {
-                node.bounds[2 * a][i] = infinity;
-                node.bounds[2 * a + 1][i] = -infinity;
-            }
-        }
-        pool_.nodes.push_back(node);
-        for (int i = 0; i < count; ++i) {
-            const BinaryNode& child = tree_.nodes[children[std::size_t(i)]];
-            for (int a = 0; a < 3; ++a) {
-                const float pad =
-                    padding * std::max({std::fabs(child.box.lo[a]), std::fabs(child.box.hi[a]), reach_});
-                node.bounds[2 * a][i] = child.box.lo[a] - pad;
-                node.bounds[2 * a + 1][i] = child.box.hi[a] + pad;
-            }
-            node.child[i] = child.count ? emit_leaf(child) : emit_node(children[std::size_t(i)], depth + 1);
-        }
-        pool_.nodes[index] = node;
-        return std::uint32_t(index);
+    /// dev::Bvh8Node::child of every leaf, by its place among the tree's nodes.
+    std::vector<std::uint32_t> write() {
+        std::vector<std::uint32_t> words(tree_.nodes.size());
+        for (std::size_t i = 0; i < words.size(); ++i)
+            if (tree_.nodes[i].count) words[i] = write(tree_.nodes[i]);
+        return words;
     }
 
   private:
-    std::uint32_t emit_leaf(const BinaryNode& leaf) {
+    std::uint32_t write(const BinaryNode& leaf) {
         const Reference* references = tree_.references.data() + leaf.right_or_first;
         if (references[0].item >= triangles_.size())
             return BVH_INSTANCE | instances_[references[0].item - triangles_.size()].instance;
@@ -119,11 +85,60 @@ class Emitter {
     }
 
     const BinaryTree& tree_;
-    const Collapse& collapse_;
     std::span<const BvhTriangle> triangles_;
     std::span<const BvhInstance> instances_;
-    const float reach_;
     BvhPool& pool_;
+};
+
+/// Writes the nodes of one layout, depth first, so that what is walked together lies together.
+template <class Node>
+class NodeWriter {
+  public:
+    using Format = Layout<Node>;
+
+    NodeWriter(const BinaryTree& tree, const std::vector<std::uint32_t>& leaves, float origin_reach,
+               AlignedVector<Node>& nodes)
+        : tree_(tree),
+          leaves_(leaves),
+          reach_(origin_reach),
+          nodes_(nodes),
+          collapse_(tree.nodes, Format::width) {}
+
+    /// The node of this binary node; none: an empty tree's.
+    std::uint32_t write(std::uint32_t from = 0, unsigned room = Format::room) {
+        Collapse::Children from_nodes;
+        const int count = tree_.nodes.empty() ? 0 : collapse_.children(from, room, from_nodes);
+        const std::span chosen(from_nodes.data(), std::size_t(count));
+        const auto area = [&](std::uint32_t c) { return tree_.nodes[c].box.half_area(); };
+        std::stable_sort(chosen.begin(), chosen.end(), [&](auto a, auto b) { return area(a) > area(b); });
+        const auto index = std::uint32_t(nodes_.size());
+        nodes_.emplace_back();
+        std::array<Child, most_width> children;
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            const BinaryNode& child = tree_.nodes[chosen[i]];
+            children[i] = {padded(child.box),
+                           child.count ? leaves_[chosen[i]] : write(chosen[i], room + 1 - unsigned(count))};
+        }
+        write_node(std::span(children).first(chosen.size()), nodes_[index]);
+        return index;
+    }
+
+  private:
+    Box padded(Box box) const {
+        for (int a = 0; a < 3; ++a) {
+            const float pad =
+                Format::padding * std::max({std::fabs(box.lo[a]), std::fabs(box.hi[a]), reach_});
+            box.lo[a] -= pad;
+            box.hi[a] += pad;
+        }
+        return box;
+    }
+
+    const BinaryTree& tree_;
+    const std::vector<std::uint32_t>& leaves_;
+    const float reach_;
+    AlignedVector<Node>& nodes_;
+    const Collapse collapse_;
 };
 
 std::vector<Reference> references_of(std::span<const BvhTriangle> triangles,
@@ -145,17 +160,27 @@ std::vector<Reference> references_of(std::span<const BvhTriangle> triangles,
 
 }  // namespace
 
-std::uint32_t build_bvh(std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances,
-                        float origin_reach, BvhPool& pool) {
-    const std::vector<Reference> references = references_of(triangles, instances);
-    const auto emit = [&](const BinaryTree& tree, const Collapse& collapse) {
-        return Emitter(tree, collapse, triangles, instances, origin_reach, pool).emit_node(0, 0);
+const char* name_of(BvhFormat format) { return format == BvhFormat::bvh4 ? "bvh4" : "bvh8"; }
+
+std::optional<BvhFormat> find_bvh_format(const std::string& name) {
+    for (const BvhFormat format : all_bvh_formats)
+        if (name == name_of(format)) return format;
+    return {};
+}
+
+BvhRoots build_bvh(std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances,
+                   float origin_reach, BvhPool& pool) {
+    const BinaryTree tree = build_binary_tree(triangles, references_of(triangles, instances), most_height);
+    const std::vector<std::uint32_t> leaves = LeafWriter(tree, triangles, instances, pool).write();
+    BvhRoots roots;
+    roots.fill(TRIAD_NONE);
+    const auto write = [&]<class Node>(BvhFormat format, AlignedVector<Node>& nodes) {
+        if (pool.formats.contains(format))
+            roots[std::size_t(format)] = NodeWriter<Node>(tree, leaves, origin_reach, nodes).write();
     };
-    BinaryTree tree = build_binary_tree(triangles, references, free_height);
-    const CheapestCollapse cheapest(tree.nodes);
-    if (tree.nodes.empty() || wide_depth(tree.nodes, cheapest, 0) <= BVH_DEPTH) return emit(tree, cheapest);
-    tree = build_binary_tree(triangles, references, strict_height);
-    return emit(tree, LowestCollapse(tree.nodes));
+    write(BvhFormat::bvh8, pool.nodes8);
+    write(BvhFormat::bvh4, pool.nodes4);
+    return roots;
 }
 
 }  // namespace triad

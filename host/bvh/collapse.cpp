@@ -4,18 +4,33 @@
 
 namespace triad::bvh {
 
-CheapestCollapse::CheapestCollapse(const std::vector<BinaryNode>& nodes)
-    : nodes_(nodes), plans_(nodes.size()) {
-    for (std::size_t n = nodes.size(); n-- > 0;) plan(n);
+Collapse::Collapse(const std::vector<BinaryNode>& nodes, int width)
+    : nodes_(nodes), width_(width), plans_(nodes.size()), waiting_(nodes.size()), heights_(nodes.size()) {
+    for (std::size_t n = nodes.size(); n-- > 0;) {
+        plan(n);
+        if (nodes[n].count) continue;
+        Children children;
+        int count = 0;
+        distribute(std::uint32_t(n), width_, children, count);
+        for (int i = 0; i < count; ++i)
+            waiting_[n] = std::max(waiting_[n], waiting_[children[std::size_t(i)]]);
+        waiting_[n] = std::uint16_t(waiting_[n] + count - 1);
+        heights_[n] = std::uint8_t(1 + std::max(heights_[n + 1], heights_[nodes[n].right_or_first]));
+    }
 }
 
-int CheapestCollapse::children(std::uint32_t node, Children& children) const {
+int Collapse::children(std::uint32_t node, unsigned room, Children& children) const {
     int count = 0;
-    distribute(node, BVH_WIDTH, children, count);
-    return count;
+    distribute(node, width_, children, count);
+    if (waiting_[node] <= room) return count;
+    unsigned highest = 0;
+    for (int i = 0; i < count; ++i) highest = std::max<unsigned>(highest, heights_[children[std::size_t(i)]]);
+    if (unsigned(count) - 1 + highest <= room) return count;
+    children[0] = node + 1, children[1] = nodes_[node].right_or_first;
+    return 2;
 }
 
-void CheapestCollapse::plan(std::size_t n) {
+void Collapse::plan(std::size_t n) {
     Plan& p = plans_[n];
     std::fill(std::begin(p.left), std::end(p.left), std::uint8_t(0));
     if (nodes_[n].count) {
@@ -33,8 +48,8 @@ void CheapestCollapse::plan(std::size_t n) {
         p.left[slots - 1] = std::uint8_t(left);
         return cost;
     };
-    p.cost[0] = nodes_[n].box.half_area() + best(BVH_WIDTH);
-    for (int slots = 2; slots < BVH_WIDTH; ++slots) {
+    p.cost[0] = nodes_[n].box.half_area() + best(width_);
+    for (int slots = 2; slots < width_; ++slots) {
         p.cost[slots - 1] = best(slots);
         if (p.cost[slots - 1] < p.cost[slots - 2]) continue;
         p.cost[slots - 1] = p.cost[slots - 2];
@@ -42,9 +57,9 @@ void CheapestCollapse::plan(std::size_t n) {
     }
 }
 
-void CheapestCollapse::distribute(std::uint32_t node, int slots, Children& children, int& count) const {
+void Collapse::distribute(std::uint32_t node, int slots, Children& children, int& count) const {
     const Plan& p = plans_[node];
-    while (slots > 1 && slots < BVH_WIDTH && p.left[slots - 1] == 0) --slots;
+    while (slots > 1 && slots < width_ && p.left[slots - 1] == 0) --slots;
     if (slots == 1 || nodes_[node].count) {
         children[std::size_t(count++)] = node;
         return;
@@ -52,36 +67,6 @@ void CheapestCollapse::distribute(std::uint32_t node, int slots, Children& child
     const int left = p.left[slots - 1];
     distribute(node + 1, left, children, count);
     distribute(nodes_[node].right_or_first, slots - left, children, count);
-}
-
-LowestCollapse::LowestCollapse(const std::vector<BinaryNode>& nodes)
-    : nodes_(nodes), heights_(nodes.size(), 0) {
-    for (std::size_t n = nodes.size(); n-- > 0;)
-        if (!nodes[n].count)
-            heights_[n] = std::uint8_t(1 + std::max(heights_[n + 1], heights_[nodes[n].right_or_first]));
-}
-
-int LowestCollapse::children(std::uint32_t node, Children& children) const {
-    int count = 1;
-    children[0] = node;
-    while (count < BVH_WIDTH) {
-        const auto highest = std::max_element(children.begin(), children.begin() + count,
-                                              [&](auto a, auto b) { return heights_[a] < heights_[b]; });
-        if (heights_[*highest] == 0) break;
-        children[std::size_t(count++)] = nodes_[*highest].right_or_first;
-        *highest += 1;
-    }
-    return count;
-}
-
-unsigned wide_depth(const std::vector<BinaryNode>& nodes, const Collapse& collapse, std::uint32_t node) {
-    if (nodes[node].count) return 0;
-    Collapse::Children children;
-    const int count = collapse.children(node, children);
-    unsigned depth = 0;
-    for (int i = 0; i < count; ++i)
-        depth = std::max(depth, wide_depth(nodes, collapse, children[std::size_t(i)]));
-    return depth + 1;
 }
 
 }  // namespace triad::bvh

@@ -40,6 +40,15 @@ const std::vector<CheckCase>& function_cases() {
     return cases;
 }
 
+const std::vector<CheckCase>& traversal_cases() {
+    static const std::vector<CheckCase> cases = [] {
+        std::vector<CheckCase> all;
+        for (const auto add : {add_traversal, add_traversal_reference, add_any_bits}) add(all);
+        return all;
+    }();
+    return cases;
+}
+
 const std::vector<CheckCase>& picture_cases() {
     static const std::vector<CheckCase> cases = [] {
         std::vector<CheckCase> all;

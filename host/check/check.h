@@ -43,6 +43,9 @@ struct CheckResult {
 
 /// Every case, in the order of the documents: functions first, whole pictures after.
 const std::vector<CheckCase>& function_cases();
+/// Those among them that trace rays against trees: a device that walks nodes of another format answers them
+/// anew.
+const std::vector<CheckCase>& traversal_cases();
 const std::vector<CheckCase>& picture_cases();
 
 /// The cases of a level, or those of these ids whatever their level. Throws Error(usage) for an unknown id.

@@ -9,6 +9,7 @@
 #include "device/device.h"
 #include "kernels/types.h"
 #include "scene/shapes.h"
+#include "trace/node_format.h"
 
 namespace triad::traversal_case {
 
@@ -51,13 +52,14 @@ inline void set_rows(const dmat4& m, float rows[12]) {
 class Tracer {
   public:
     Tracer(Device& device, const BvhPool& pool, const std::vector<dev::Instance>& instances,
-           std::uint32_t root, const Options& options = {})
+           const BvhRoots& roots, const Options& options = {})
         : device_(device) {
-        upload(pool, instances, root, options);
+        upload(pool, instances, roots, options);
     }
     Tracer(Device& device, const World& world, const Options& options = {}) : device_(device) {
         BvhPool pool;
-        std::vector<std::uint32_t> roots(world.meshes.size());
+        pool.formats = {format_of(device)};
+        std::vector<BvhRoots> roots(world.meshes.size());
         std::vector<Bounds> bounds(world.meshes.size());
         for (std::size_t m = 1; m < world.meshes.size(); ++m) {
             double reach = world.origin_reach;
@@ -89,10 +91,9 @@ class Tracer {
             boxes.push_back({box, std::uint32_t(i + 1)});
             set_rows(to_world, instances[i + 1].to_world);
             set_rows(glm::inverse(to_world), instances[i + 1].to_object);
-            instances[i + 1].root = roots[mesh];
+            std::copy(roots[mesh].begin(), roots[mesh].end(), instances[i + 1].root);
         }
-        const std::uint32_t root = build_bvh(world.meshes[0], boxes, world.origin_reach, pool);
-        upload(pool, instances, root, options);
+        upload(pool, instances, build_bvh(world.meshes[0], boxes, world.origin_reach, pool), options);
     }
 
     std::vector<dev::Hit> closest(const std::vector<dev::Ray>& rays) const {
@@ -103,12 +104,12 @@ class Tracer {
     }
 
   private:
-    void upload(const BvhPool& pool, const std::vector<dev::Instance>& instances, std::uint32_t root,
+    void upload(const BvhPool& pool, const std::vector<dev::Instance>& instances, const BvhRoots& roots,
                 const Options& options) {
-        nodes_ = device_.upload(pool.nodes);
+        nodes_ = nodes_on(device_, pool);
         blocks_ = device_.upload(pool.blocks);
         instances_ = device_.upload(instances);
-        root_ = root;
+        root_ = roots[std::size_t(format_of(device_))];
         program_ = device_.build("traversal/intersect.cl", options);
     }
 
@@ -133,6 +134,21 @@ class Tracer {
     Buffer nodes_, blocks_, instances_;
     std::uint32_t root_ = 0;
     Program program_;
+};
+
+/// While it lives the device walks nodes of another format.
+class WithFormat {
+  public:
+    WithFormat(Device& device, BvhFormat format) : device_(device), before_(format_of(device)) {
+        set_format(device, format);
+    }
+    ~WithFormat() { set_format(device_, before_); }
+    WithFormat(const WithFormat&) = delete;
+    WithFormat& operator=(const WithFormat&) = delete;
+
+  private:
+    Device& device_;
+    const BvhFormat before_;
 };
 
 inline dev::Ray ray(const dvec3& origin, const dvec3& direction,

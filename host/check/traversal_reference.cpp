@@ -1,4 +1,6 @@
 // Traversal against brute force in double precision: what is hit, where, and what is not.
+#include <cstring>
+
 #include "check/cases.h"
 #include "check/measurements.h"
 #include "check/tracer.h"
@@ -160,6 +162,46 @@ void same_bits_without_instances(Check& check) {
     }
 }
 
+/// Spheres in the world and placed, and soup between them: trees of some depth, and boxes that overlap.
+World crowded_world() {
+    World world = soup(2000, 3.0, 0.3, 47);
+    world.origin_reach = 8.0f;
+    world.add(0, shapes::displaced_sphere(vec3(0.0f), 1.0f, 60, 30, 0.3f, 3.0f, 2));
+    world.add(1, shapes::displaced_sphere(vec3(0.0f), 1.0f, 30, 20, 0.2f, 2.0f, 3));
+    Random random(53);
+    for (int i = 0; i < 40; ++i) {
+        const dmat4 place = glm::translate(dmat4(1.0), random.in_cube(3.0));
+        world.placements.push_back(
+            {1, glm::scale(glm::rotate(place, random.between(0, 6.28), random.direction()),
+                           dvec3(random.between(0.1, 1), 0.4, 0.7))});
+    }
+    return world;
+}
+
+// The trees are walked in other orders, through other boxes, by other code.
+void same_hits_in_every_format(Check& check) {
+    const World world = crowded_world();
+    auto rays = random_rays(check.count(40000), 4.0, 59);
+    for (std::size_t i = 0; i < rays.size(); i += 5)
+        rays[i].skip_instance = std::uint32_t(i % 7), rays[i].skip_primitive = std::uint32_t(i % 3000);
+    std::vector<std::vector<dev::Hit>> hits;
+    std::vector<std::vector<std::uint32_t>> occluded;
+    for (const BvhFormat format : all_bvh_formats) {
+        const WithFormat walks(check.device, format);
+        const Tracer tracer(check.device, world);
+        hits.push_back(tracer.closest(rays));
+        occluded.push_back(tracer.occluded(rays));
+    }
+    std::size_t hit = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check.holds(std::memcmp(&hits[0][i], &hits[1][i], sizeof(dev::Hit)) == 0, "hit of ray ", i,
+                    " differs");
+        check.equal(occluded[1][i], occluded[0][i], "occlusion of ray ", i);
+        hit += occluded[0][i];
+    }
+    check.above(hit, rays.size() / 5, "hits");
+}
+
 }  // namespace
 
 void add_traversal_reference(std::vector<CheckCase>& cases) {
@@ -175,6 +217,7 @@ void add_traversal_reference(std::vector<CheckCase>& cases) {
                      {"T7", "length of the direction scales t alone", standard, length_of_direction_scales_t},
                      {"T8", "t_max is the last t that counts", quick, t_max_counts},
                      {"T9", "same bits without instances", standard, same_bits_without_instances},
+                     {"T10", "same hits in every format of nodes", quick, same_hits_in_every_format},
                  });
 }
 

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "trace/node_format.h"
 
 namespace fs = std::filesystem;
 
@@ -18,6 +19,10 @@ constexpr const char* schema = "triad.verdict/1";
 const std::vector<std::string> first_cases = {"L2",  "M10", "C18d", "C1",  "C2",  "C3", "C7", "C11c",
                                               "C17", "R1",  "C4",   "C23", "C20", "D4", "D2"};
 
+fs::path path_of(const DeviceInfo& device, BvhFormat format) {
+    return kept_path(device, std::string("checked/") + name_of(format));
+}
+
 std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
     std::string names;
     for (const std::string& name : verdict.wrong) names += (names.empty() ? "" : ", ") + name;
@@ -26,8 +31,8 @@ std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
 
 }  // namespace
 
-std::optional<Verdict> load_verdict(const DeviceInfo& device) {
-    const fs::path path = kept_path(device, "checked");
+std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format) {
+    const fs::path path = path_of(device, format);
     std::ifstream file(path);
     if (path.empty() || !file) return {};
     const auto json = nlohmann::json::parse(file, nullptr, false);
@@ -42,14 +47,12 @@ std::optional<Verdict> load_verdict(const DeviceInfo& device) {
     return verdict;
 }
 
-void keep_verdict(const DeviceInfo& device, const Verdict& verdict) {
-    const fs::path path = kept_path(device, "checked");
+void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict) {
+    const fs::path path = path_of(device, format);
     if (path.empty()) return;
-    const nlohmann::json json{{"schema", schema},
-                              {"device", device.name},
-                              {"driver", device.driver},
-                              {"platform", device.platform},
-                              {"wrong", verdict.wrong}};
+    const nlohmann::json json{{"schema", schema},          {"device", device.name},
+                              {"driver", device.driver},   {"platform", device.platform},
+                              {"format", name_of(format)}, {"wrong", verdict.wrong}};
     try {
         fs::create_directories(path.parent_path());
         write_file(path, json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
@@ -66,12 +69,13 @@ Verdict verdict_of(const std::vector<CheckResult>& results) {
 }
 
 Verdict ensure_checked(Device& device) {
-    if (const auto kept = load_verdict(device.info())) return *kept;
+    const BvhFormat format = format_of(device);
+    if (const auto kept = load_verdict(device.info(), format)) return *kept;
     inform("First use of " + device.info().name +
            " with this driver: a few seconds to check that its answers are right.");
     const Verdict verdict = verdict_of(run_cases(device, cases_of(CheckLevel::quick, first_cases),
                                                  CheckLevel::quick, [](const CheckResult&) {}));
-    keep_verdict(device.info(), verdict);
+    keep_verdict(device.info(), format, verdict);
     return verdict;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bvh/bvh.h"
 #include "check/check.h"
 
 namespace triad {
@@ -12,12 +13,12 @@ struct Verdict {
     std::vector<std::string> wrong;  ///< names of the cases that failed; empty: the device is right
 };
 
-/// What an earlier check found; none when there was no check of this device with this driver and these
-/// kernels.
-std::optional<Verdict> load_verdict(const DeviceInfo& device);
+/// What an earlier check found; none when there was no check of this device with this driver, these kernels
+/// and this format of nodes.
+std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format);
 
 /// A cache folder that cannot be written costs a warning only.
-void keep_verdict(const DeviceInfo& device, const Verdict& verdict);
+void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict);
 
 Verdict verdict_of(const std::vector<CheckResult>& results);
 

@@ -8,6 +8,7 @@
 #include "check/verdict.h"
 #include "cli/command_line.h"
 #include "report/report.h"
+#include "trace/node_format.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -17,6 +18,7 @@ struct CheckOptions {
     std::string device, json, kernels;
     std::vector<std::string> only;
     unsigned threads = 0;
+    std::optional<BvhFormat> format;
     CheckLevel level = CheckLevel::standard;
 };
 
@@ -33,12 +35,15 @@ void print(const CheckResult& r) {
 Exit run(const CheckOptions& o) {
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
+    const BvhFormat format = o.format.value_or(default_format(device.info()));
+    set_format(device, format);
     if (o.level != CheckLevel::tiny) ensure_tuned(device);
     const bool lines = o.json != "-";
     if (lines) {
         std::printf("%s, %s, driver %s\n", device.info().name.c_str(), device.info().platform.c_str(),
                     device.info().driver.c_str());
         for (const std::string& setting : device.info().settings) std::printf("%s\n", setting.c_str());
+        std::printf("nodes: %s\n", name_of(format));
         std::printf("%-62s %10s %10s\n", "case", "value", "bound");
     }
     std::vector<CheckResult> results =
@@ -50,6 +55,7 @@ Exit run(const CheckOptions& o) {
     for (const CheckResult& r : results) {
         wrong += r.ok == false, absent += !r.ok;
         rows.push_back({{"case", r.name},
+                        {"format", name_of(format)},
                         {"value", r.ok && std::isfinite(r.value) ? Json(r.value) : Json()},
                         {"bound", r.ok ? Json(r.bound) : Json()},
                         {"ok", r.ok ? Json(*r.ok) : Json()},
@@ -58,7 +64,8 @@ Exit run(const CheckOptions& o) {
                         {"seconds", r.seconds}});
     }
     if (!o.json.empty()) write_report(o.json, "check", &device.info(), rows);
-    if (o.only.empty() && o.level != CheckLevel::tiny) keep_verdict(device.info(), verdict_of(results));
+    if (o.only.empty() && o.level != CheckLevel::tiny)
+        keep_verdict(device.info(), format, verdict_of(results));
     const std::string counts = std::to_string(results.size() - wrong - absent) + " right, " +
                                std::to_string(wrong) + " wrong, " + std::to_string(absent) +
                                " not applicable";
@@ -76,6 +83,7 @@ void add_check(CLI::App& app, Exit& exit) {
     CLI::App* command = app.add_subcommand("check", "Prove a device and its driver by known answers");
     command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
     command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
+    add_format(*command, o->format);
     CLI::App* level = command->add_option_group("level")->require_option(0, 1);
     const auto at = [&](const char* name, CheckLevel value, const char* words) {
         level->add_flag_callback(

@@ -7,6 +7,7 @@
 
 #include "base/colour.h"
 #include "base/log.h"
+#include "bvh/bvh.h"
 #include "scene/limits.h"
 
 namespace triad {
@@ -26,6 +27,19 @@ std::optional<T> number(std::string_view text) {
 }
 
 }  // namespace
+
+CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format) {
+    const auto parse = [&format](const std::string& name) {
+        format = find_bvh_format(name);
+        if (!format) bad("--format", name, "bvh8 or bvh4");
+    };
+    return command
+        .add_option_function<std::string>("--format", parse,
+                                          "Nodes that rays walk: bvh8 (eight boxes at once: CPUs) or bvh4 "
+                                          "(small and scalar: GPUs). Pictures are "
+                                          "the same bit for bit; default: what suits the device")
+        ->type_name("NAME");
+}
 
 void add_common(CLI::App& command) {
     command.add_flag_callback(

@@ -2,6 +2,7 @@
 /// What the subcommands share on the command line. Bad values throw Error(usage) that names option and value.
 #include <CLI/CLI.hpp>
 #include <array>
+#include <optional>
 #include <string>
 
 #include "base/error.h"
@@ -9,6 +10,8 @@
 #include "scene/film.h"
 
 namespace triad {
+
+enum class BvhFormat;
 
 /// One subcommand: adds itself to `app`; when it was chosen, parsing runs it and sets `exit`.
 void add_render(CLI::App& app, Exit& exit);
@@ -21,6 +24,8 @@ void add_compare(CLI::App& app, Exit& exit);
 void add_panel(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);
 
+/// --format NAME
+CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);
 /// -q and -v.
 void add_common(CLI::App& command);
 

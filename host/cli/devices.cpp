@@ -8,6 +8,7 @@
 #include "cli/command_line.h"
 #include "device/device.h"
 #include "report/report.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -24,7 +25,7 @@ void print(const DeviceList& list) {
                     d.correctly_rounded ? "yes" : "no", d.fp64 ? "yes" : "no");
         for (const std::string& setting : d.settings) std::printf("           %s\n", setting.c_str());
         if (d.usable) {
-            const auto verdict = load_verdict(d);
+            const auto verdict = load_verdict(d, default_format(d));
             std::printf("           %s\n", !verdict                 ? "not checked yet (triad check)"
                                            : verdict->wrong.empty() ? "checked: right"
                                                                     : "checked: WRONG (triad check)");

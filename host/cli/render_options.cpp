@@ -252,6 +252,7 @@ void declare(CLI::App& command, RenderRequest& o) {
     command.add_option("--threads", o.threads, "Cores to use, here and on CPU devices (default 0: all)")
         ->type_name("N")
         ->group(machine_group);
+    add_format(command, o.format)->group(machine_group);
     command.add_flag("--force", o.force, "Render even on a device that triad check found wrong")
         ->group(machine_group);
     command

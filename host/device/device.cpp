@@ -225,6 +225,9 @@ void Device::set_preferred_local(std::size_t local) {
     state_->preferred_local = std::max<std::size_t>(1, most > 0 ? std::min(local, most) : local);
 }
 
+const Options& Device::shape() const { return state_->shape; }
+void Device::set_shape(Options shape) { state_->shape = std::move(shape); }
+
 double Device::compile_seconds() const { return state_->compile_seconds; }
 
 std::map<std::string, KernelTime> Device::times() {

@@ -236,6 +236,11 @@ class Device {
     std::size_t preferred_local() const;
     void set_preferred_local(std::size_t local);
 
+    /// What every program on this device is compiled with, unless its own options say otherwise: the shape
+    /// that suits it. Empty at first.
+    const Options& shape() const;
+    void set_shape(Options shape);
+
     double compile_seconds() const;             ///< spent in build() so far
     std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
 

@@ -93,6 +93,7 @@ struct DeviceState {
     std::set<std::pair<std::string, std::size_t>> ran;  ///< kernels by name and work-group size
     std::optional<Peril> first_runs;                    ///< of kernels, until they have ended
     std::size_t preferred_local = 1;
+    Options shape;
     double compile_seconds = 0;
 
     cl_context cl() const { return static_cast<cl_context>(context.get()); }

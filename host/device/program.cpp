@@ -127,7 +127,9 @@ Program Device::build_source(const std::string& name, const std::string& source,
     opencl::DeviceState& device = *state_;
     device.core->require_alive();
     const std::string text = kernel_source::flatten(name, source);
-    const std::string flags = opencl::flags(device.core->info, options);
+    Options all = options;
+    all.insert(device.shape.begin(), device.shape.end());
+    const std::string flags = opencl::flags(device.core->info, all);
     Program& program = device.programs[{text, flags}];
     if (program.state_) return program;
     const auto start = std::chrono::steady_clock::now();

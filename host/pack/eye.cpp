@@ -89,11 +89,20 @@ bool holds_for(const PackedScene& packed, const RenderSettings& settings) {
 }
 
 std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSettings& settings,
-                                            std::shared_ptr<const PackedScene> before) {
-    if (before && holds_for(*before, settings)) return before;
+                                            std::shared_ptr<const PackedScene> before, BvhFormats formats) {
+    if (before && holds_for(*before, settings)) {
+        const BvhFormats& there = before->bvh.formats;
+        if (std::includes(there.begin(), there.end(), formats.begin(), formats.end())) return before;
+        // For the same eye again, so that all devices see the same scene.
+        formats.insert(there.begin(), there.end());
+        auto packed = std::make_shared<PackedScene>(pack(scene, before->settings, before->surfaces, formats));
+        packed->packings = before->packings;
+        return packed;
+    }
     const bool share = before && packs_alike(before->settings, settings);
+    if (before) formats.insert(before->bvh.formats.begin(), before->bvh.formats.end());
     auto packed = std::make_shared<PackedScene>(
-        pack(scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}));
+        pack(scene, settings, share ? before->surfaces : std::shared_ptr<const PackedSurfaces>{}, formats));
     if (share) packed->packings = before->packings + 1;
     return packed;
 }

@@ -50,8 +50,9 @@ void set_surfaces(PackedScene& packed, std::shared_ptr<const PackedSurfaces> sur
 }
 
 PackedScene pack(const Scene& scene, const RenderSettings& settings,
-                 std::shared_ptr<const PackedSurfaces> surfaces) {
+                 std::shared_ptr<const PackedSurfaces> surfaces, const BvhFormats& formats) {
     PackedScene packed;
+    packed.bvh.formats = formats;
     packed.scene = hash_of(scene);
     packed.settings = settings;
     packed.facts = facts_of(scene);
@@ -92,7 +93,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.transparent = settings.transparent;
     frame.light_count = static_cast<std::uint32_t>(packed.lights.size());
     frame.quanta = std::ldexp(1.0f, packed.quanta_log2);
-    frame.root = packed.root;
+    std::copy(packed.roots.begin(), packed.roots.end(), frame.root);
     frame.first_block = settings.independent ? SAMPLER_SOBOL_BLOCKS : 0;
     frame.wavelength_from_camera = settings.spectral == Spectral::classic;
     frame.lights = packed.light_shape;

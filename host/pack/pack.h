@@ -50,7 +50,7 @@ struct PackedScene {
         0.0};       ///< the render origin, in world space: subtracted in double before anything becomes float
     Bounds bounds;  ///< of what is drawn, rebased
     Bounds reach;   ///< rebased: where rays may start; boxes of the trees are padded for it
-    std::uint32_t root = 0;
+    BvhRoots roots{};            ///< of the world's tree
     bool instances = false;      ///< some mesh is instanced rather than flattened
     std::size_t duplicates = 0;  ///< triangles that coincide exactly with one of a lower id, and were dropped
     int quanta_log2 = 0;         ///< fixed-point units of the film per unit of radiance
@@ -82,17 +82,20 @@ struct PackedScene {
 /// Packs what `settings.view` may see of the scene. Precondition: validate(scene) was called.
 /// Throws Error(scene) with "nothing to render" when nothing is drawn, Error(memory) when an index does not
 /// fit. `surfaces`: of the same scene and alike settings, to be shared; null: they are packed too.
+/// `formats`: of nodes that devices will walk.
 PackedScene pack(const Scene& scene, const RenderSettings& settings,
-                 std::shared_ptr<const PackedSurfaces> surfaces = {});
+                 std::shared_ptr<const PackedSurfaces> surfaces = {},
+                 const BvhFormats& formats = all_bvh_formats);
 
 /// Whether pictures with these settings may use what was packed for others: the settings that packing reads
 /// are alike, and what the eye sees is as exact as a packing for itself would promise (pack/refine.h).
 bool holds_for(const PackedScene& packed, const RenderSettings& settings);
 
-/// `before` where it holds for these settings; else a new packing, which takes from `before` what no eye
-/// changes. `before`: null, or of the same scene.
+/// `before` where it holds for these settings and has these formats of nodes; else a new packing, which takes
+/// from `before` what no eye changes. `before`: null, or of the same scene.
 std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSettings& settings,
-                                            std::shared_ptr<const PackedScene> before = {});
+                                            std::shared_ptr<const PackedScene> before = {},
+                                            BvhFormats formats = all_bvh_formats);
 
 /// Everything of the picture that is no array.
 dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);

@@ -199,7 +199,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
     GeometryPacker packer(scene, packed, settings.view.orthographic ? std::nullopt : std::optional(eye));
     std::vector<BvhTriangle> flat;
     std::vector<BvhInstance> boxes;
-    std::vector<std::uint32_t> roots(scene.meshes.size(), TRIAD_NONE);
+    std::vector<std::optional<BvhRoots>> roots(scene.meshes.size());
     std::vector<Bounds> object_bounds(scene.meshes.size());
     std::vector<float> object_reach(scene.meshes.size());
     for (const MeshInstance& i : scene.instances)
@@ -227,14 +227,14 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
             packed.duplicates += triangles_of(mesh);
             continue;
         }
-        if (roots[i.mesh] == TRIAD_NONE) {
+        if (!roots[i.mesh]) {
             std::vector<BvhTriangle> own;
             packer.add_shared(mesh, own);
             for (const BvhTriangle& t : own)
                 for (const vec3& c : t.corner) object_bounds[i.mesh].add(dvec3(c));
             roots[i.mesh] = build_bvh(own, {}, object_reach[i.mesh], packed.bvh);
         }
-        instance.root = roots[i.mesh];
+        std::copy(roots[i.mesh]->begin(), roots[i.mesh]->end(), instance.root);
         boxes.push_back({transformed(object_bounds[i.mesh], to_rebased),
                          static_cast<std::uint32_t>(packed.instance_table.size())});
         packed.instance_table.push_back(instance);
@@ -244,7 +244,7 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
                     "There is nothing to render in " + scene.name + ": its scene has no triangles.");
     note_touching(scene, packed, flat);
     packed.first_placed_block = packed.bvh.blocks.size();
-    packed.root = build_bvh(flat, boxes, std::max(largest(reach.lo), largest(reach.hi)), packed.bvh);
+    packed.roots = build_bvh(flat, boxes, std::max(largest(reach.lo), largest(reach.hi)), packed.bvh);
     packed.flattened = std::move(flat);
     detail("packed " + std::to_string(packed.triangles.size()) + " triangles in " +
            std::to_string(packed.geometries.size()) + " geometries, " + std::to_string(boxes.size()) +

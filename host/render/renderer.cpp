@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "render/renderer_state.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -22,7 +23,7 @@ void check(const RenderSettings& s) {
 }
 
 DeviceScenes scene_on(Device& device, const Scene& scene, const RenderSettings& settings) {
-    return {std::make_shared<DeviceScene>(device, pack_for(scene, settings))};
+    return {std::make_shared<DeviceScene>(device, pack_for(scene, settings, {}, {format_of(device)}))};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "kernels/types.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -47,6 +48,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"mrays", mega_rays(outcome)},
         {"device", session.device().info().name},
         {"driver", session.device().info().driver},
+        {"format", name_of(format_of(session.device()))},
         {"device_bytes", renderer.device_bytes()},
         {"film_bytes", film_bytes(film)},
         {"bins", {film.bins_x, film.bins_y}},

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "bvh/bvh.h"
 #include "pack/settings.h"
 #include "render/schedule.h"
 #include "session/output.h"
@@ -41,6 +42,7 @@ struct RenderRequest {
     ReconstructRequest reconstruct;
     std::string device;
     unsigned threads = 0;
+    std::optional<BvhFormat> format;  ///< of nodes; none: the device's own
 
     int scene_index = -1;
     std::string camera;

@@ -13,6 +13,7 @@
 #include "display/perceived_sets.h"
 #include "io/io.h"
 #include "session/prepare.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -111,6 +112,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     const RenderResult& result = outcome.result;
     Metadata metadata = triad::metadata_of(outcome.film);
     metadata["triad:driver"] = device_.info().driver;
+    metadata["triad:format"] = name_of(format_of(device_));
     metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
     metadata["triad:scene_name"] = scene_name();

@@ -3,6 +3,7 @@
 #include "base/colour.h"
 #include "pack/albedo_tables.h"
 #include "pack/ray_filter.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -32,7 +33,7 @@ DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> pack
     };
     const PackedSurfaces& surfaces = *packed_->surfaces;
     dev::SceneArguments& a = arrays_;
-    share(a.nodes, packed_->bvh.nodes);
+    add(a.nodes, nodes_on(device, packed_->bvh, packed_));
     share(a.blocks, packed_->bvh.blocks);
     copy(a.instances, packed_->instance_table);
     share(a.triangles, packed_->triangles);

@@ -7,6 +7,7 @@
 
 #include "bvh/bvh.h"
 #include "scene/shapes.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -35,8 +36,9 @@ std::vector<LocalTiming> time_locals(Device& device) {
         triangles.push_back({{shape.positions[t.x], shape.positions[t.y], shape.positions[t.z]},
                              std::uint32_t(triangles.size())});
     BvhPool pool;
-    const std::uint32_t root = build_bvh(triangles, {}, 1.0f, pool);
-    const Buffer nodes = device.upload(pool.nodes), blocks = device.upload(pool.blocks);
+    pool.formats = {format_of(device)};
+    const std::uint32_t root = build_bvh(triangles, {}, 1.0f, pool)[std::size_t(format_of(device))];
+    const Buffer nodes = nodes_on(device, pool), blocks = device.upload(pool.blocks);
     const Kernel kernel =
         device.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}}).kernel("intersect_closest");
 

@@ -6,6 +6,12 @@
  * written where it is meant. */
 #pragma OPENCL FP_CONTRACT OFF
 
+/* 0: rays walk nodes of eight boxes, all at once in vectors (types.h, Bvh8Node). 1: of four, one at a time,
+ * with a short stack (Bvh4Node). Hits are the same bit for bit. */
+#ifndef TRIAD_BVH4
+#define TRIAD_BVH4 0
+#endif
+
 #include "common/builtins.h"
 #include "features.h"
 #include "types.h"

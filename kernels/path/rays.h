@@ -7,7 +7,8 @@
 
 /* name: of the ray, by which the alpha test decides: coverage_ray(). */
 TRIAD_FUNCTION Hit rays_closest(const Scene* scene, Ray ray, uint name, Tally* tally) {
-    Traversal traversal = traversal_make(scene->nodes, scene->blocks, scene->instances, scene->frame->root);
+    Traversal traversal =
+        traversal_make(scene->nodes, scene->blocks, scene->instances, scene->frame->root[TRIAD_BVH4]);
 #if TRIAD_ALPHA_TEST
     const Coverage coverage = {scene, name};
     traversal.context = &coverage;
@@ -19,7 +20,8 @@ TRIAD_FUNCTION Hit rays_closest(const Scene* scene, Ray ray, uint name, Tally* t
 }
 
 TRIAD_FUNCTION int rays_occluded(const Scene* scene, Ray ray, uint name, Tally* tally) {
-    Traversal traversal = traversal_make(scene->nodes, scene->blocks, scene->instances, scene->frame->root);
+    Traversal traversal =
+        traversal_make(scene->nodes, scene->blocks, scene->instances, scene->frame->root[TRIAD_BVH4]);
 #if TRIAD_ALPHA_TEST
     const Coverage coverage = {scene, name};
     traversal.context = &coverage;

@@ -8,11 +8,7 @@ kernel void intersect_closest(global const BvhNode* nodes, global const Triangle
                               global Hit* hits, uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
-    Traversal scene;
-    scene.nodes = nodes;
-    scene.blocks = blocks;
-    scene.instances = instances;
-    scene.root = root;
+    const Traversal scene = traversal_make(nodes, blocks, instances, root);
     hits[i] = traverse_closest(&scene, rays[i]);
 }
 
@@ -22,10 +18,6 @@ kernel void intersect_occluded(global const BvhNode* nodes, global const Triangl
                                global uint* occluded, uint count) {
     const size_t i = get_global_id(0);
     if (i >= count) return;
-    Traversal scene;
-    scene.nodes = nodes;
-    scene.blocks = blocks;
-    scene.instances = instances;
-    scene.root = root;
+    const Traversal scene = traversal_make(nodes, blocks, instances, root);
     occluded[i] = (uint)traverse_occluded(&scene, rays[i]);
 }

@@ -1,4 +1,4 @@
-/* Watertight ray-triangle test, four triangles at once.
+/* Watertight ray-triangle test: of the four triangles of a block at once, or (TRIAD_BVH4) of one.
  * Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013. The edge functions are
  * differences of products compensated with fma (Kahan; error <= 1.5 ulp, so the sign is exact), which
  * replaces the paper's fall-back to double: neighbours that share an edge always agree on which side of it
@@ -17,9 +17,26 @@ typedef struct TriangleRay {
     uint row_x, row_y, row_z; /* in floats from vertex[0][0]; corners are 12 floats apart */
 } TriangleRay;
 
+/* A value of each triangle that is tested at once, a truth (0 or not) of each, and where the test reads them:
+ * `row` points to a corner's coordinate in the first lane. */
+#if TRIAD_BVH4
+typedef float TriangleFloat;
+typedef int TriangleMask;
+#define TRIANGLE_LOAD(lane, row) (row)[lane]
+#else
+typedef float4 TriangleFloat;
+typedef int4 TriangleMask;
+#define TRIANGLE_LOAD(lane, row) vload4(0, (row) + (lane))
+#endif
+
 typedef struct TriangleHits {
-    float4 t, u, v;
+    TriangleFloat t, u, v;
 } TriangleHits;
+
+/* One of three by an index: not read from an array, which would be one in memory. */
+TRIAD_FUNCTION float triangle_pick(uint axis, const float values[3]) {
+    return axis == 0u ? values[0] : axis == 1u ? values[1] : values[2];
+}
 
 TRIAD_FUNCTION TriangleRay triangle_ray(const float origin[3], const float direction[3]) {
     const float x = fabs(direction[0]), y = fabs(direction[1]), z = fabs(direction[2]);
@@ -27,12 +44,13 @@ TRIAD_FUNCTION TriangleRay triangle_ray(const float origin[3], const float direc
     const uint kx = kz == 2u ? 0u : kz + 1u;
     const uint ky = kx == 2u ? 0u : kx + 1u;
     TriangleRay ray;
-    ray.origin_x = origin[kx];
-    ray.origin_y = origin[ky];
-    ray.origin_z = origin[kz];
-    ray.shear_x = direction[kx] / direction[kz];
-    ray.shear_y = direction[ky] / direction[kz];
-    ray.shear_z = 1.0f / direction[kz];
+    const float along = triangle_pick(kz, direction);
+    ray.origin_x = triangle_pick(kx, origin);
+    ray.origin_y = triangle_pick(ky, origin);
+    ray.origin_z = triangle_pick(kz, origin);
+    ray.shear_x = triangle_pick(kx, direction) / along;
+    ray.shear_y = triangle_pick(ky, direction) / along;
+    ray.shear_z = 1.0f / along;
     ray.row_x = kx * 4u;
     ray.row_y = ky * 4u;
     ray.row_z = kz * 4u;
@@ -40,44 +58,50 @@ TRIAD_FUNCTION TriangleRay triangle_ray(const float origin[3], const float direc
 }
 
 /* a b - c d, relative error <= 1.5 ulp (Jeannerod, Louvet, Muller 2013, algorithm 2). */
-TRIAD_FUNCTION float4 triangle_difference_of_products(float4 a, float4 b, float4 c, float4 d) {
-    const float4 cd = c * d;
+TRIAD_FUNCTION TriangleFloat triangle_difference_of_products(TriangleFloat a, TriangleFloat b,
+                                                             TriangleFloat c, TriangleFloat d) {
+    const TriangleFloat cd = c * d;
     return fma(a, b, -cd) + fma(-c, d, cd);
 }
 
-/* Lanes (-1 or 0) of `block` hit with 0 < t <= t_max that are not the primitive `skip`; their t, u, v in
- * `hits`. Both sides count; an edge counts for both its triangles; a triangle without area is never hit. */
-TRIAD_FUNCTION int4 triangle_intersect(global const TriangleBlock* block, const TriangleRay* ray, float t_max,
-                                       uint skip, TriangleHits* hits) {
+/* Which of the triangles from `lane` of `block` on are hit with 0 < t <= t_max and are not the primitive
+ * `skip`; their t, u, v in `hits`. Both sides count; an edge counts for both its triangles; a triangle
+ * without area is never hit. */
+TRIAD_FUNCTION TriangleMask triangle_intersect(global const TriangleBlock* block, uint lane,
+                                               const TriangleRay* ray, float t_max, uint skip,
+                                               TriangleHits* hits) {
     global const float* x = &block->vertex[0][0] + ray->row_x;
     global const float* y = &block->vertex[0][0] + ray->row_y;
     global const float* z = &block->vertex[0][0] + ray->row_z;
-    const float4 az = vload4(0, z) - ray->origin_z;
-    const float4 bz = vload4(3, z) - ray->origin_z;
-    const float4 cz = vload4(6, z) - ray->origin_z;
-    const float4 sx = (float4)(-ray->shear_x), sy = (float4)(-ray->shear_y);
-    const float4 ax = fma(sx, az, vload4(0, x) - ray->origin_x);
-    const float4 ay = fma(sy, az, vload4(0, y) - ray->origin_y);
-    const float4 bx = fma(sx, bz, vload4(3, x) - ray->origin_x);
-    const float4 by = fma(sy, bz, vload4(3, y) - ray->origin_y);
-    const float4 cx = fma(sx, cz, vload4(6, x) - ray->origin_x);
-    const float4 cy = fma(sy, cz, vload4(6, y) - ray->origin_y);
+    const TriangleFloat az = TRIANGLE_LOAD(lane, z) - ray->origin_z;
+    const TriangleFloat bz = TRIANGLE_LOAD(lane, z + 12) - ray->origin_z;
+    const TriangleFloat cz = TRIANGLE_LOAD(lane, z + 24) - ray->origin_z;
+    const TriangleFloat sx = (TriangleFloat)(-ray->shear_x), sy = (TriangleFloat)(-ray->shear_y);
+    const TriangleFloat ax = fma(sx, az, TRIANGLE_LOAD(lane, x) - ray->origin_x);
+    const TriangleFloat ay = fma(sy, az, TRIANGLE_LOAD(lane, y) - ray->origin_y);
+    const TriangleFloat bx = fma(sx, bz, TRIANGLE_LOAD(lane, x + 12) - ray->origin_x);
+    const TriangleFloat by = fma(sy, bz, TRIANGLE_LOAD(lane, y + 12) - ray->origin_y);
+    const TriangleFloat cx = fma(sx, cz, TRIANGLE_LOAD(lane, x + 24) - ray->origin_x);
+    const TriangleFloat cy = fma(sy, cz, TRIANGLE_LOAD(lane, y + 24) - ray->origin_y);
 
-    const float4 u = triangle_difference_of_products(cx, by, cy, bx);
-    const float4 v = triangle_difference_of_products(ax, cy, ay, cx);
-    const float4 w = triangle_difference_of_products(bx, ay, by, ax);
-    float4 least = u < v ? u : v, most = u > v ? u : v;
+    const TriangleFloat u = triangle_difference_of_products(cx, by, cy, bx);
+    const TriangleFloat v = triangle_difference_of_products(ax, cy, ay, cx);
+    const TriangleFloat w = triangle_difference_of_products(bx, ay, by, ax);
+    TriangleFloat least = u < v ? u : v, most = u > v ? u : v;
     least = least < w ? least : w;
     most = most > w ? most : w;
-    const float4 determinant = u + v + w;
-    int4 lanes = ((least >= 0.0f) | (most <= 0.0f)) & (determinant != 0.0f);
+    const TriangleFloat determinant = u + v + w;
+    const TriangleMask lanes = ((least >= 0.0f) | (most <= 0.0f)) & (determinant != 0.0f);
+#if TRIAD_BVH4
+    if (!lanes) return 0; /* what is left is a division, which few triangles need */
+#endif
 
-    const float4 inverse = 1.0f / determinant;
-    const float4 t = fma(u, az, fma(v, bz, w * cz)) * ray->shear_z * inverse;
+    const TriangleFloat inverse = 1.0f / determinant;
+    const TriangleFloat t = fma(u, az, fma(v, bz, w * cz)) * ray->shear_z * inverse;
     hits->t = t;
     hits->u = v * inverse;
     hits->v = w * inverse;
-    return lanes & (t > 0.0f) & (t <= t_max) & (vload4(0, block->primitive) != skip);
+    return lanes & (t > 0.0f) & (t <= t_max) & (TRIANGLE_LOAD(lane, block->primitive) != skip);
 }
 
 #endif

@@ -1,7 +1,7 @@
 // triad-bench-rays: rays per second of Triad on one device, beside Embree on the same rays of the same
 // scenes.
-//   triad-bench-rays [--scene NAME] [--device SEL] [--threads N] [--local N] [--size N] [--rounds N] [--json
-//   FILE]
+//   triad-bench-rays [--scene NAME] [--device SEL] [--threads N] [--local N] [--format NAME] [--size N]
+//   [--rounds N] [--json FILE]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +14,7 @@
 #include "base/parallel_for.h"
 #include "clock.h"
 #include "embree_tracer.h"
+#include "trace/node_format.h"
 #include "triad_tracer.h"
 
 using namespace triad;
@@ -26,6 +27,7 @@ struct Options {
     std::string device, json;
     unsigned threads = 1, size = 768, rounds = 7;
     std::size_t local = 0;
+    std::optional<BvhFormat> format;
 };
 
 Options parse(int argc, char** argv) {
@@ -53,6 +55,8 @@ Options parse(int argc, char** argv) {
             options.size = std::max(8u, number() / 8 * 8);
         else if (name == "--rounds")
             options.rounds = std::max(1u, number());
+        else if (name == "--format" && find_bvh_format(value))
+            options.format = find_bvh_format(value);
         else if (name == "--kernels")
             kernel_source::set_folder(value);
         else if (name == "--clock")
@@ -60,9 +64,11 @@ Options parse(int argc, char** argv) {
         else if (name == "--json")
             options.json = value;
         else
-            throw Error(Exit::usage, "There is no option " + name +
-                                         "; there are --scene, --device, --threads, --local, --size, "
-                                         "--rounds, --clock, --kernels and --json.");
+            throw Error(
+                Exit::usage,
+                "There is no option " + name +
+                    "; there are --scene, --device, --threads, --local, --format (bvh8, bvh4), --size, "
+                    "--rounds, --clock, --kernels and --json.");
     }
     return options;
 }
@@ -235,6 +241,7 @@ int run(int argc, char** argv) {
     const Options options = parse(argc, argv);
     Device device = Device::open({.selector = options.device, .threads = options.threads});
     if (options.local) device.set_preferred_local(options.local);
+    set_format(device, options.format.value_or(default_format(device.info())));
     nlohmann::json report{{"schema", "triad.bench-rays/1"},
                           {"version", TRIAD_VERSION},
                           {"machine", {{"cores", std::thread::hardware_concurrency()}}},

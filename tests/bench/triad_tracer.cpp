@@ -1,6 +1,7 @@
 #include "triad_tracer.h"
 
 #include "clock.h"
+#include "trace/node_format.h"
 
 namespace triad::bench {
 
@@ -13,9 +14,10 @@ TriadTracer::TriadTracer(Device& device, const BenchScene& scene) : device_(devi
              true});
     BvhPool pool;
     const double start = now();
-    root_ = build_bvh(triangles, {}, scene.reach, pool);
+    pool.formats = {format_of(device)};
+    root_ = build_bvh(triangles, {}, scene.reach, pool)[std::size_t(format_of(device))];
     build_seconds_ = now() - start;
-    nodes_ = device_.upload(pool.nodes);
+    nodes_ = nodes_on(device_, pool);
     blocks_ = device_.upload(pool.blocks);
     const Program program = device_.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}});
     closest_ = program.kernel("intersect_closest");

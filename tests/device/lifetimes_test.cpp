@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "render/renderer.h"
 #include "same_film.h"
+#include "trace/node_format.h"
 
 namespace triad {
 namespace {
@@ -46,10 +47,11 @@ TEST(Lifetimes, other_seeds_crops_sizes_and_bins_need_no_other_packing) {
     }
 }
 
-TEST(Lifetimes, several_devices_add_up_to_the_film_of_one) {
+TEST(Lifetimes, several_devices_add_up_to_the_film_of_one_whatever_nodes_they_walk) {
     if (test_device().info().type != "cpu") GTEST_SKIP() << "a CPU can be opened twice and lends parts";
     const char* selector = std::getenv("TRIAD_TEST_DEVICE");
     Device part = Device::open({.selector = selector ? selector : "", .threads = 1});
+    set_format(part, BvhFormat::bvh4);
     const Scene scene = varied_scene();
     RenderSettings s = settings();
     s.width = 160, s.height = 120;
@@ -83,6 +85,21 @@ TEST(Lifetimes, a_camera_around_the_scene_keeps_its_trees) {
         packed = pack_for(scene, s, packed);
     }
     EXPECT_LE(packed->packings, 2u);
+}
+
+TEST(Lifetimes, nodes_of_another_format_are_added_for_the_same_eye) {
+    const Scene scene = varied_scene();
+    RenderSettings s = settings();
+    const auto packed = pack_for(scene, s, {}, {BvhFormat::bvh8});
+    EXPECT_TRUE(packed->bvh.nodes4.empty());
+    s.view.eye += dvec3(0, 0, 0.01);
+    ASSERT_EQ(pack_for(scene, s, packed, {BvhFormat::bvh8}), packed);
+    const auto both = pack_for(scene, s, packed, {BvhFormat::bvh4});
+    EXPECT_EQ(both->bvh.formats, all_bvh_formats);
+    EXPECT_FALSE(both->bvh.nodes4.empty());
+    EXPECT_EQ(both->settings.view.eye, packed->settings.view.eye);
+    EXPECT_EQ(both->packings, packed->packings);
+    EXPECT_EQ(pack_for(scene, s, both, {BvhFormat::bvh8}), both);
 }
 
 TEST(Lifetimes, another_eye_shares_what_no_eye_changes) {

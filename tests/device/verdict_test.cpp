@@ -40,11 +40,14 @@ CheckResult result_of(const char* name, std::optional<bool> ok) {
 
 TEST_F(VerdictTest, is_kept_per_device_driver_and_settings) {
     const DeviceInfo& info = test_device().info();
+    const auto load_verdict = [](const DeviceInfo& of) { return triad::load_verdict(of, BvhFormat::bvh8); };
     EXPECT_FALSE(load_verdict(info));
-    keep_verdict(info, verdict_of({result_of("C1 edges", true), result_of("C14 none", std::nullopt)}));
+    keep_verdict(info, BvhFormat::bvh8,
+                 verdict_of({result_of("C1 edges", true), result_of("C14 none", std::nullopt)}));
     ASSERT_TRUE(load_verdict(info));
     EXPECT_TRUE(load_verdict(info)->wrong.empty());
-    keep_verdict(info, verdict_of({result_of("C1 edges", false), result_of("D4 slab", true)}));
+    keep_verdict(info, BvhFormat::bvh8,
+                 verdict_of({result_of("C1 edges", false), result_of("D4 slab", true)}));
     EXPECT_EQ(load_verdict(info)->wrong, std::vector<std::string>{"C1 edges"});
     DeviceInfo other = info;
     other.driver += " next";
@@ -52,6 +55,7 @@ TEST_F(VerdictTest, is_kept_per_device_driver_and_settings) {
     other = info;
     other.settings.push_back("MODE=0");
     EXPECT_FALSE(load_verdict(other));
+    EXPECT_FALSE(triad::load_verdict(info, BvhFormat::bvh4)) << "it was another format of nodes";
 }
 
 TEST_F(VerdictTest, that_cannot_be_read_is_none) {
@@ -60,10 +64,10 @@ TEST_F(VerdictTest, that_cannot_be_read_is_none) {
          {"", "{", "[]", "{\"schema\": 3, \"wrong\": []}", "{\"schema\": \"triad.verdict/1\"}",
           "{\"schema\": \"triad.verdict/1\", \"wrong\": 1}",
           "{\"schema\": \"triad.verdict/1\", \"wrong\": [1]}"}) {
-        keep_verdict(info, {});
-        for (const auto& entry : fs::directory_iterator(folder / "triad/checked"))
+        keep_verdict(info, BvhFormat::bvh8, {});
+        for (const auto& entry : fs::directory_iterator(folder / "triad/checked/bvh8"))
             std::ofstream(entry.path()) << bad;
-        EXPECT_FALSE(load_verdict(info)) << bad;
+        EXPECT_FALSE(load_verdict(info, BvhFormat::bvh8)) << bad;
     }
 }
 

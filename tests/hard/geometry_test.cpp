@@ -197,7 +197,7 @@ TEST_F(Hard, a_hundred_million_triangles_are_hit_where_they_are) {
     EXPECT_GT(placed, 100'000'000u);
     const RenderSettings settings = settings_of(scene, {});
     const PackedScene packed = pack(scene, settings);
-    const double megabytes = (double(packed.bvh.nodes.size()) * sizeof(dev::BvhNode) +
+    const double megabytes = (double(packed.bvh.nodes8.size()) * sizeof(dev::Bvh8Node) +
                               double(packed.bvh.blocks.size()) * sizeof(dev::TriangleBlock) +
                               double(packed.triangles.size()) * sizeof(dev::Triangle)) /
                              1e6;
@@ -220,7 +220,7 @@ TEST_F(Hard, a_hundred_million_triangles_are_hit_where_they_are) {
         rays.push_back(ray);
     }
     const std::vector<dev::Hit> hits =
-        traversal_case::Tracer(test_device(), packed.bvh, packed.instance_table, packed.root).closest(rays);
+        traversal_case::Tracer(test_device(), packed.bvh, packed.instance_table, packed.roots).closest(rays);
     std::size_t compared = 0, wrong = 0;
     double worst = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -37,13 +37,13 @@ void run(const std::string& arguments) {
                                  outcome.output);
 }
 
-/// The film that the program writes with these options.
-Film film_of(const FilmCase& c) {
+/// The film that the program writes with these options, and `more`.
+Film film_of(const FilmCase& c, const std::string& more = {}) {
     const TemporaryFolder folder;
     const std::string film = "'" + (folder / "film").string() + "'";
     const char* device = std::getenv("TRIAD_TEST_DEVICE");
     const std::string how =
-        " -q --progress none" + (device ? " --device '" + std::string(device) + "'" : std::string());
+        " -q --progress none" + more + (device ? " --device '" + std::string(device) + "'" : std::string());
     std::istringstream parts(with_folders(c.options));
     std::string common, part, merged;
     std::getline(parts, common, '|');
@@ -86,6 +86,30 @@ TEST_P(FilmHashes, are_those_of_the_table) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, FilmHashes, testing::ValuesIn(table().cases),
+                         [](const auto& info) { return info.param.name; });
+
+/// With the other format of nodes.
+class FilmHashesOfBvh4 : public testing::TestWithParam<FilmCase> {};
+
+TEST_P(FilmHashesOfBvh4, are_those_of_the_table) {
+    const FilmCase& c = GetParam();
+    if (const auto reason = why_not(c.options)) GTEST_SKIP() << *reason;
+    const Film film = film_of(c, " --format bvh4");
+    if (const std::string reason = other_driver(film); !reason.empty()) GTEST_SKIP() << reason;
+    EXPECT_EQ(differences(hashes_of(film), c.expected), "") << c.name << " (" << c.options << ")";
+}
+
+std::vector<FilmCase> every(std::size_t step) {
+    std::vector<FilmCase> some;
+    for (std::size_t i = 0; i < table().cases.size(); i += step) some.push_back(table().cases[i]);
+    return some;
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, FilmHashesOfBvh4, testing::ValuesIn(every(8)),
+                         [](const auto& info) { return info.param.name; });
+// All of them take as long again as the table: --gtest_also_run_disabled_tests
+// --gtest_filter='*FilmHashesOfBvh4*'
+INSTANTIATE_TEST_SUITE_P(DISABLED_All, FilmHashesOfBvh4, testing::ValuesIn(every(1)),
                          [](const auto& info) { return info.param.name; });
 
 /// The same film, in several pieces on a device that allocates little.

@@ -218,6 +218,24 @@ TEST(RenderCommand, an_error_or_a_time_ends_it_and_the_metadata_say_how) {
     EXPECT_EQ(render("--error 0.000001 --time 0.5").second.at("stopped_by"), "time");
 }
 
+TEST(RenderCommand, a_film_is_the_same_with_every_format_of_nodes_and_merges) {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& format, const std::string& samples) {
+        const fs::path file = folder / (format + samples);
+        expect_done("render --size 32x18 --samples " + samples + " --format " + format + " --film " +
+                    file.string() + ".film -o " + file.string() + ".exr --json " + file.string() + ".json");
+        EXPECT_EQ(read_picture(file.string() + ".exr").metadata.at("triad:format"), format);
+        EXPECT_EQ(nlohmann::json::parse(bytes_of(file.string() + ".json")).at("rows").at(0).at("format"),
+                  format);
+        return file.string() + ".film";
+    };
+    const std::string eight = render("bvh8", "0:4");
+    EXPECT_EQ(bytes_of(eight), bytes_of(render("bvh4", "0:4")));
+    const std::string merged = (folder / "merged.film").string();
+    expect_done("merge " + render("bvh8", "0:1") + " " + render("bvh4", "1:4") + " -o " + merged);
+    EXPECT_EQ(bytes_of(merged), bytes_of(eight));
+}
+
 TEST(RenderCommand, a_crop_is_a_part_of_the_picture) {
     const TemporaryFolder folder;
     expect_done("render --size 32x18 --spp 2 -o " + (folder / "whole.exr").string());

@@ -26,7 +26,7 @@ struct Fault {
 };
 
 const Fault faults[] = {
-    {"epsilon_instead_of_id_skip", "traversal/triangle.h", "(vload4(0, block->primitive) != skip)",
+    {"epsilon_instead_of_id_skip", "traversal/triangle.h", "(TRIANGLE_LOAD(lane, block->primitive) != skip)",
      "(t > 1e-4f)", "C3"},
     {"contraction_on", "common/language.h", "FP_CONTRACT OFF", "FP_CONTRACT ON", "M10"},
     {"min_instead_of_fmin", "common/math.h", "{ return a < b ? a : b; }", "{ return b < a ? b : a; }", "M8"},
@@ -106,15 +106,16 @@ TEST_P(Planted, is_caught_and_only_then) {
 INSTANTIATE_TEST_SUITE_P(Faults, Planted, testing::ValuesIn(faults),
                          [](const auto& info) { return std::string(info.param.name); });
 
-/// What the simulator says about a case; empty: nothing.
-std::string oclgrind(const std::string& options, const fs::path& kernels, const std::string& id) {
+/// What the simulator says about a case; empty: nothing. `format`: of nodes.
+std::string oclgrind(const std::string& options, const fs::path& kernels, const std::string& id,
+                     const std::string& format = "bvh8") {
     const fs::path log = fs::temp_directory_path() / ("triad-oclgrind-" + std::to_string(::getpid()));
     // A cache of its own: what it compiled otherwise would lack these build options.
     const fs::path cache = fs::temp_directory_path() / ("triad-oclgrind-cache-" + std::to_string(::getpid()));
     const std::string command =
         "XDG_CACHE_HOME=" + cache.string() + " oclgrind --build-options '-cl-opt-disable -DTRIAD_CALLS' " +
         options + " --log " + log.string() + " " + TRIAD_PROGRAM + " check --tiny --device oclgrind --case " +
-        id + " --kernels " + kernels.string() + " > /dev/null 2>&1";
+        id + " --format " + format + " --kernels " + kernels.string() + " > /dev/null 2>&1";
     [[maybe_unused]] const int status = std::system(command.c_str());
     const std::string text = text_of(log);
     fs::remove(log);
@@ -133,11 +134,15 @@ TEST(Simulator, sees_a_read_out_of_bounds_that_changes_no_value) {
 
 TEST(Simulator, sees_an_empty_child_that_a_ray_of_no_numbers_meets) {
     if (std::system("oclgrind --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "oclgrind is not installed";
-    EXPECT_EQ(oclgrind("", fs::path(TRIAD_SOURCE_DIR) / "kernels", "C25"), "");
-    const FaultyKernels kernels("traversal/traverse.h", "tf = t_max < tf ? (float8)(t_max) : tf;",
-                                "tf = tf < t_max ? tf : (float8)(t_max);");
-    ASSERT_TRUE(kernels.found_once);
-    EXPECT_NE(oclgrind("", kernels.folder, "C25").find("Invalid read"), std::string::npos);
+    const auto expect_seen = [](const std::string& format, const char* right, const char* wrong) {
+        EXPECT_EQ(oclgrind("", fs::path(TRIAD_SOURCE_DIR) / "kernels", "C25", format), "") << format;
+        const FaultyKernels kernels("traversal/slab.h", right, wrong);
+        ASSERT_TRUE(kernels.found_once) << right;
+        EXPECT_NE(oclgrind("", kernels.folder, "C25", format).find("Invalid read"), std::string::npos)
+            << format;
+    };
+    expect_seen("bvh8", "tf = t_max < tf ? (float8)(t_max) : tf;", "tf = tf < t_max ? tf : (float8)(t_max);");
+    expect_seen("bvh4", " && child[c] != BVH_EMPTY", "");
 }
 
 TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {

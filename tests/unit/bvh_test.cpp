@@ -13,6 +13,7 @@
 
 #include "base/parallel_for.h"
 #include "bvh/collapse.h"
+#include "bvh/nodes.h"
 #include "check/any_bits.h"
 #include "scene/shapes.h"
 
@@ -30,21 +31,47 @@ std::vector<BvhTriangle> triangles_of(const Primitive& shape) {
 
 struct Contents {
     std::multiset<std::uint32_t> primitives, instances;
-    unsigned depth = 0;
+    unsigned waiting = 0;  ///< children on the stack of a walk, at most
 };
 
+/// Child i of a node, in the layout's own words: its box, which is empty for an empty slot.
+bvh::Box box_of(const dev::Bvh8Node& n, int i) {
+    bvh::Box box;
+    for (int a = 0; a < 3; ++a) box.lo[a] = n.bounds[2 * a][i], box.hi[a] = n.bounds[2 * a + 1][i];
+    return box;
+}
+bvh::Box box_of(const dev::Bvh4Node& n, int i) {
+    bvh::Box box;
+    for (int a = 0; a < 3 && n.child[i] != BVH_EMPTY; ++a) {
+        const double cell = std::ldexp(1.0, int(n.cells >> (8 * a) & 0xff) - 127);
+        // Rounded inwards: a triangle inside is inside of the exact box, too.
+        const auto plane = [&](std::uint32_t bytes) {
+            return n.origin[a] + cell * (bytes >> (8 * i) & 0xff);
+        };
+        box.lo[a] = std::nextafter(float(plane(n.bounds[2 * a])), INFINITY);
+        box.hi[a] = std::nextafter(float(plane(n.bounds[2 * a + 1])), -INFINITY);
+    }
+    return box;
+}
+
 /// Walks a tree and checks that every triangle lies in the boxes of all its ancestors.
-void walk(const BvhPool& pool, std::uint32_t node, unsigned depth, Contents& contents, Bounds inside) {
-    contents.depth = std::max(contents.depth, depth);
-    const dev::BvhNode& n = pool.nodes.at(node);
-    for (int i = 0; i < BVH_WIDTH; ++i) {
+template <class Node>
+void walk(const BvhPool& pool, const AlignedVector<Node>& nodes, std::uint32_t node, unsigned waiting,
+          Contents& contents, Bounds inside) {
+    const Node& n = nodes.at(node);
+    const auto count = unsigned(
+        std::count_if(std::begin(n.child), std::end(n.child), [](auto c) { return c != BVH_EMPTY; }));
+    if (count > 1) waiting += count - 1;
+    contents.waiting = std::max(contents.waiting, waiting);
+    for (int i = 0; i < int(std::size(n.child)); ++i) {
+        const bvh::Box own = box_of(n, i);
         Bounds box;
         for (int a = 0; a < 3; ++a) {
-            box.lo[a] = std::max(inside.lo[a], double(n.bounds[2 * a][i]));
-            box.hi[a] = std::min(inside.hi[a], double(n.bounds[2 * a + 1][i]));
+            box.lo[a] = std::max(inside.lo[a], double(own.lo[a]));
+            box.hi[a] = std::min(inside.hi[a], double(own.hi[a]));
         }
         if (n.child[i] == BVH_EMPTY) {
-            for (int a = 0; a < 3; ++a) ASSERT_GT(n.bounds[2 * a][i], n.bounds[2 * a + 1][i]);
+            for (int a = 0; a < 3; ++a) ASSERT_GT(own.lo[a], own.hi[a]);
         } else if (n.child[i] & BVH_LEAF) {
             const dev::TriangleBlock& block = pool.blocks.at(n.child[i] & BVH_INDEX);
             std::set<std::uint32_t> lanes;
@@ -60,35 +87,41 @@ void walk(const BvhPool& pool, std::uint32_t node, unsigned depth, Contents& con
         } else if (n.child[i] & BVH_INSTANCE) {
             contents.instances.insert(n.child[i] & BVH_INDEX);
         } else {
-            walk(pool, n.child[i], depth + 1, contents, box);
+            walk(pool, nodes, n.child[i], waiting, contents, box);
         }
     }
 }
 
-Contents contents_of(const BvhPool& pool, std::uint32_t root) {
+template <class Node>
+Contents contents_of(const BvhPool& pool, const AlignedVector<Node>& nodes, std::uint32_t root) {
     Contents contents;
     Bounds everything;
     everything.lo = dvec3(-std::numeric_limits<double>::infinity());
     everything.hi = dvec3(std::numeric_limits<double>::infinity());
-    walk(pool, root, 1, contents, everything);
-    EXPECT_LE(contents.depth, unsigned(BVH_DEPTH));
+    walk(pool, nodes, root, 0, contents, everything);
+    EXPECT_LE(contents.waiting, bvh::Layout<Node>::room);
+    return contents;
+}
+
+/// Of the tree in either format, which hold the same.
+Contents contents_of(const BvhPool& pool, const BvhRoots& roots) {
+    const Contents contents = contents_of(pool, pool.nodes8, roots[0]),
+                   other = contents_of(pool, pool.nodes4, roots[1]);
+    EXPECT_EQ(contents.primitives, other.primitives);
+    EXPECT_EQ(contents.instances, other.instances);
     return contents;
 }
 
 Contents contents_of(const std::vector<BvhTriangle>& triangles,
                      const std::vector<BvhInstance>& instances = {}) {
     BvhPool pool;
-    const std::uint32_t root = build_bvh(triangles, instances, 1.0f, pool);
-    return contents_of(pool, root);
+    const BvhRoots roots = build_bvh(triangles, instances, 1.0f, pool);
+    return contents_of(pool, roots);
 }
 
 void expect_each_once(const Contents& contents, std::size_t count) {
     ASSERT_EQ(contents.primitives.size(), count);
     EXPECT_EQ(std::set(contents.primitives.begin(), contents.primitives.end()).size(), count);
-}
-
-TEST(Bvh, two_levels_of_the_deepest_trees_fit_the_stack) {
-    static_assert(2 * (BVH_DEPTH * (BVH_WIDTH - 1) + 1) <= BVH_STACK);
 }
 
 TEST(Bvh, holds_every_triangle_once_within_its_boxes) {
@@ -100,9 +133,15 @@ TEST(Bvh, holds_every_triangle_once_within_its_boxes) {
 
 TEST(Bvh, of_nothing_is_a_root_without_children) {
     BvhPool pool;
-    const std::uint32_t root = build_bvh({}, {}, 0.0f, pool);
-    for (const std::uint32_t child : pool.nodes.at(root).child) EXPECT_EQ(child, BVH_EMPTY);
+    const BvhRoots roots = build_bvh({}, {}, 0.0f, pool);
+    for (const std::uint32_t child : pool.nodes8.at(roots[0]).child) EXPECT_EQ(child, BVH_EMPTY);
+    for (const std::uint32_t child : pool.nodes4.at(roots[1]).child) EXPECT_EQ(child, BVH_EMPTY);
     EXPECT_TRUE(pool.blocks.empty());
+}
+
+template <class T>
+bool same_bytes(const AlignedVector<T>& a, const AlignedVector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 TEST(Bvh, is_the_same_whatever_the_number_of_threads) {
@@ -113,12 +152,23 @@ TEST(Bvh, is_the_same_whatever_the_number_of_threads) {
     set_host_threads(7);
     build_bvh(triangles, {}, 2.0f, many);
     set_host_threads(0);
-    ASSERT_EQ(one.nodes.size(), many.nodes.size());
-    ASSERT_EQ(one.blocks.size(), many.blocks.size());
-    EXPECT_EQ(std::memcmp(one.nodes.data(), many.nodes.data(), one.nodes.size() * sizeof(dev::BvhNode)), 0);
-    EXPECT_EQ(
-        std::memcmp(one.blocks.data(), many.blocks.data(), one.blocks.size() * sizeof(dev::TriangleBlock)),
-        0);
+    EXPECT_TRUE(same_bytes(one.nodes8, many.nodes8));
+    EXPECT_TRUE(same_bytes(one.nodes4, many.nodes4));
+    EXPECT_TRUE(same_bytes(one.blocks, many.blocks));
+}
+
+TEST(Bvh, in_one_format_is_the_same_as_in_both) {
+    const auto triangles = triangles_of(shapes::displaced_sphere(vec3(0.0f), 1.0f, 60, 40, 0.4f, 3.0f, 5));
+    BvhPool both, eight, four;
+    eight.formats = {BvhFormat::bvh8};
+    four.formats = {BvhFormat::bvh4};
+    for (BvhPool* pool : {&both, &eight, &four}) build_bvh(triangles, {}, 2.0f, *pool);
+    EXPECT_TRUE(same_bytes(eight.nodes8, both.nodes8));
+    EXPECT_TRUE(same_bytes(four.nodes4, both.nodes4));
+    EXPECT_TRUE(same_bytes(eight.blocks, both.blocks));
+    EXPECT_TRUE(same_bytes(four.blocks, both.blocks));
+    EXPECT_TRUE(eight.nodes4.empty());
+    EXPECT_TRUE(four.nodes8.empty());
 }
 
 TEST(Bvh, stays_shallow_where_the_heuristic_would_peel_triangles_off_one_by_one) {
@@ -170,29 +220,47 @@ std::uint32_t add_comb(std::vector<bvh::BinaryNode>& nodes, unsigned height, uns
     return node;
 }
 
-TEST(Bvh, the_lowest_collapse_takes_three_levels_at_a_time) {
-    for (const unsigned height : {1u, 3u, 4u, 14u, 27u})
-        for (const unsigned spine : {0u, 5u, 16u, 27u}) {
-            if (height > spine + 12) continue;  // a full tree of more levels is too large
-            std::vector<bvh::BinaryNode> nodes;
-            add_comb(nodes, height, spine);
-            EXPECT_LE(bvh::wide_depth(nodes, bvh::LowestCollapse(nodes), 0), (height + 2) / 3)
-                << height << " " << spine;
-        }
+/// Children that wait at most below a node that has room for `room`.
+unsigned waiting_below(const std::vector<bvh::BinaryNode>& nodes, const bvh::Collapse& collapse,
+                       std::uint32_t node, unsigned room) {
+    if (nodes[node].count) return 0;
+    bvh::Collapse::Children children;
+    const auto count = unsigned(collapse.children(node, room, children));
+    unsigned most = 0;
+    for (unsigned i = 0; i < count; ++i)
+        most = std::max(most, waiting_below(nodes, collapse, children[i], room + 1 - count));
+    return most + count - 1;
+}
+
+TEST(Bvh, a_collapse_keeps_to_the_room_that_the_stack_has) {
+    unsigned limited = 0;
+    for (const int width : {4, 8})
+        for (const unsigned height : {1u, 3u, 4u, 14u, 27u, 40u})
+            for (const unsigned spine : {0u, 5u, 16u, 40u}) {
+                if (height > spine + 12) continue;  // a full tree of more levels is too large
+                std::vector<bvh::BinaryNode> nodes;
+                add_comb(nodes, height, spine);
+                const bvh::Collapse collapse(nodes, width);
+                for (const unsigned room : {height, height + 3, 2 * height}) {
+                    EXPECT_LE(waiting_below(nodes, collapse, 0, room), room) << height << " " << spine;
+                    limited += collapse.waiting(0) > room;
+                }
+            }
+    EXPECT_GT(limited, 10u) << "nothing was limited";
 }
 
 /// Half areas of all wide nodes below and with `node`.
-double wide_cost(const std::vector<bvh::BinaryNode>& nodes, const bvh::Collapse& collapse,
-                 std::uint32_t node) {
+double wide_cost(const std::vector<bvh::BinaryNode>& nodes, const bvh::Collapse& collapse, std::uint32_t node,
+                 unsigned room) {
     if (nodes[node].count) return 0;
     bvh::Collapse::Children children;
-    const int count = collapse.children(node, children);
+    const int count = collapse.children(node, room, children);
     double cost = nodes[node].box.half_area();
-    for (int i = 0; i < count; ++i) cost += wide_cost(nodes, collapse, children[std::size_t(i)]);
+    for (int i = 0; i < count; ++i) cost += wide_cost(nodes, collapse, children[std::size_t(i)], room);
     return cost;
 }
 
-TEST(Bvh, the_cheapest_collapse_is_cheaper_than_another) {
+TEST(Bvh, a_collapse_is_cheaper_than_the_binary_tree) {
     const auto triangles = triangles_of(shapes::displaced_sphere(vec3(0.0f), 1.0f, 40, 30, 0.4f, 3.0f, 5));
     std::vector<bvh::Reference> references;
     for (const BvhTriangle& t : triangles) {
@@ -201,8 +269,10 @@ TEST(Bvh, the_cheapest_collapse_is_cheaper_than_another) {
         references.push_back({box, t.primitive});
     }
     const auto nodes = bvh::build_binary_tree(triangles, references, 48).nodes;
-    EXPECT_LT(wide_cost(nodes, bvh::CheapestCollapse(nodes), 0),
-              wide_cost(nodes, bvh::LowestCollapse(nodes), 0));
+    for (const int width : {4, 8}) {
+        const bvh::Collapse collapse(nodes, width);
+        EXPECT_LT(wide_cost(nodes, collapse, 0, 1000), 0.7 * wide_cost(nodes, collapse, 0, 0)) << width;
+    }
 }
 
 TEST(Bvh, drops_triangles_without_area) {
@@ -241,7 +311,8 @@ TEST(Bvh, leaves_out_what_float_cannot_hold_and_keeps_the_rest) {
     }
     instances.push_back({{dvec3(0, 0, 0), dvec3(1, 1, 1)}, 1u << 20});
     BvhPool pool;
-    const Contents contents = contents_of(pool, build_bvh(triangles, instances, INFINITY, pool));
+    const BvhRoots roots = build_bvh(triangles, instances, INFINITY, pool);
+    const Contents contents = contents_of(pool, roots);
     for (const std::uint32_t i : ordinary) EXPECT_EQ(contents.primitives.count(i), 1u) << i;
     EXPECT_LT(contents.primitives.size(), triangles.size());
     EXPECT_GT(contents.primitives.size(), ordinary.size());
@@ -270,7 +341,7 @@ TEST(Bvh, asks_for_coverage_only_where_a_triangle_is_not_opaque) {
     BvhPool pool;
     build_bvh(triangles, {}, 1.0f, pool);
     std::size_t asking = 0;
-    for (const dev::BvhNode& node : pool.nodes)
+    for (const dev::Bvh8Node& node : pool.nodes8)
         for (const std::uint32_t child : node.child)
             if (child != BVH_EMPTY && (child & BVH_LEAF) && (child & BVH_ALPHA)) {
                 ++asking;
@@ -284,7 +355,7 @@ TEST(Bvh, appends_to_the_pool_and_leaves_what_is_there) {
     const auto first = triangles_of(shapes::box(vec3(0.0f), vec3(1.0f)));
     const auto second = triangles_of(shapes::terrain(10.0f, 1.0f, 9, 3));
     BvhPool pool;
-    const std::uint32_t a = build_bvh(first, {}, 1.0f, pool), b = build_bvh(second, {}, 1.0f, pool);
+    const BvhRoots a = build_bvh(first, {}, 1.0f, pool), b = build_bvh(second, {}, 1.0f, pool);
     expect_each_once(contents_of(pool, a), first.size());
     expect_each_once(contents_of(pool, b), second.size());
 }

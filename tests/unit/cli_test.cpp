@@ -54,6 +54,8 @@ TEST(CommandLine, bad_values_are_named) {
     expect("render -o picture.bmp", 1, "picture.bmp");
     expect("render --aov normal -o x.png", 1, "--aov");
     expect("render --camera no-such-camera", 1, "no-such-camera");
+    expect("render --format bvh16", 1, "--format bvh16");
+    expect("check --format no", 1, "--format no: expected bvh8 or bvh4");
 }
 
 TEST(CommandLine, numbers_that_float_cannot_work_with_are_named) {

@@ -1,7 +1,8 @@
 #!/bin/sh
 # tests/unit/kernel_syntax.sh KERNELS-FOLDER
-# Every kernel file, headers alone too, through a strict compiler as OpenCL C 1.2 and as 3.0: catches what one driver
-# forgives and another refuses, and headers that lean on what happens to be included before them.
+# Every kernel file, headers alone too, through a strict compiler as OpenCL C 1.2 and as 3.0, with either format of nodes
+# where rays are traced: catches what one driver forgives and another refuses, and headers that lean on what happens to be
+# included before them.
 set -u
 clang=$(command -v clang || command -v clang-15 || command -v clang-14) || { echo "no clang: skipped"; exit 77; }
 cd "$1" || exit 1
@@ -9,13 +10,14 @@ failed=0
 files=$(find . -name '*.h' -o -name '*.cl' | sort)
 [ -n "$files" ] || { echo "no kernel files in $1" >&2; exit 1; }
 for file in ${files}; do
-    for standard in CL1.2 CL3.0; do
+    case $file in ./traversal/*) formats='0 1' ;; *) formats=0 ;; esac
+    for standard in CL1.2 CL3.0; do for format in $formats; do
         # A header's functions are all unused when it stands alone. 3.0 without generic pointers, which are optional in
         # it: with them a pointer and an array parameter live in different address spaces.
         "$clang" -x cl -cl-std=$standard --target=spir64-unknown-unknown -Xclang -finclude-default-header -fsyntax-only \
             -Xclang -cl-ext=-__opencl_c_generic_address_space,-__opencl_c_device_enqueue,-__opencl_c_pipes \
-            -Wall -Wextra -Wshadow -Wdouble-promotion -Wno-unused-function -Werror -I . "$file" || failed=1
-    done
+            -DTRIAD_BVH4=$format -Wall -Wextra -Wshadow -Wdouble-promotion -Wno-unused-function -Werror -I . "$file" || failed=1
+    done; done
 done
 [ $failed -eq 0 ] && echo "$(echo "$files" | wc -l) files are clean"
 exit $failed
