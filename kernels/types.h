@@ -401,6 +401,14 @@ typedef struct TileWork {
 } TileWork;
 TRIAD_SIZE(TileWork, 32);
 
+/* Pools of paths (path/wave.h): slots of one, words from one of its planes to the next (no power of two, or
+ * they would share few lines of a cache), and how many planes paths, hits and lights have at most. */
+#define POOL_SLOTS 256
+#define POOL_PLANE 272
+#define POOL_PATH_PLANES 80
+#define POOL_HIT_PLANES 6
+#define POOL_LIGHT_PLANES 20
+
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
 #define FILM_CHANNELS 4
 #define FILM_MOST_BINS 16 /* of a pixel along an axis */

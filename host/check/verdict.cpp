@@ -19,8 +19,8 @@ constexpr const char* schema = "triad.verdict/1";
 const std::vector<std::string> first_cases = {"L2",  "M10", "C18d", "C1",  "C2",  "C3", "C7", "C11c",
                                               "C17", "R1",  "C4",   "C23", "C20", "D4", "D2"};
 
-fs::path path_of(const DeviceInfo& device, BvhFormat format) {
-    return kept_path(device, std::string("checked/") + name_of(format));
+fs::path path_of(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
+    return kept_path(device, std::string("checked/") + name_of(driver) + "-" + name_of(format));
 }
 
 std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
@@ -31,8 +31,8 @@ std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
 
 }  // namespace
 
-std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format) {
-    const fs::path path = path_of(device, format);
+std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
+    const fs::path path = path_of(device, format, driver);
     std::ifstream file(path);
     if (path.empty() || !file) return {};
     const auto json = nlohmann::json::parse(file, nullptr, false);
@@ -47,8 +47,9 @@ std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format) 
     return verdict;
 }
 
-void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict) {
-    const fs::path path = path_of(device, format);
+void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict,
+                  PathDriverKind driver) {
+    const fs::path path = path_of(device, format, driver);
     if (path.empty()) return;
     const nlohmann::json json{{"schema", schema},          {"device", device.name},
                               {"driver", device.driver},   {"platform", device.platform},
@@ -70,12 +71,12 @@ Verdict verdict_of(const std::vector<CheckResult>& results) {
 
 Verdict ensure_checked(Device& device) {
     const BvhFormat format = format_of(device);
-    if (const auto kept = load_verdict(device.info(), format)) return *kept;
+    if (const auto kept = load_verdict(device.info(), format, path_driver_of(device))) return *kept;
     inform("First use of " + device.info().name +
            " with this driver: a few seconds to check that its answers are right.");
     const Verdict verdict = verdict_of(run_cases(device, cases_of(CheckLevel::quick, first_cases),
                                                  CheckLevel::quick, [](const CheckResult&) {}));
-    keep_verdict(device.info(), format, verdict);
+    keep_verdict(device.info(), format, verdict, path_driver_of(device));
     return verdict;
 }
 

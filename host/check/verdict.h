@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bvh/bvh.h"
+#include "trace/path_driver.h"
 #include "check/check.h"
 
 namespace triad {
@@ -14,11 +15,13 @@ struct Verdict {
 };
 
 /// What an earlier check found; none when there was no check of this device with this driver, these kernels
-/// and this format of nodes.
-std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format);
+/// this format of nodes and this path driver.
+std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format,
+                                    PathDriverKind driver = PathDriverKind::mega);
 
 /// A cache folder that cannot be written costs a warning only.
-void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict);
+void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict,
+                  PathDriverKind driver = PathDriverKind::mega);
 
 Verdict verdict_of(const std::vector<CheckResult>& results);
 

@@ -19,6 +19,7 @@ struct CheckOptions {
     std::vector<std::string> only;
     unsigned threads = 0;
     std::optional<BvhFormat> format;
+    std::optional<PathDriverKind> path_driver;
     CheckLevel level = CheckLevel::standard;
 };
 
@@ -37,13 +38,15 @@ Exit run(const CheckOptions& o) {
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     const BvhFormat format = o.format.value_or(default_format(device.info()));
     set_format(device, format);
+    if (o.path_driver) set_path_driver(device, *o.path_driver);
+    const PathDriverKind path_driver = path_driver_of(device);
     if (o.level != CheckLevel::tiny) ensure_tuned(device);
     const bool lines = o.json != "-";
     if (lines) {
         std::printf("%s, %s, driver %s\n", device.info().name.c_str(), device.info().platform.c_str(),
                     device.info().driver.c_str());
         for (const std::string& setting : device.info().settings) std::printf("%s\n", setting.c_str());
-        std::printf("nodes: %s\n", name_of(format));
+        std::printf("nodes: %s, paths by: %s\n", name_of(format), name_of(path_driver));
         std::printf("%-62s %10s %10s\n", "case", "value", "bound");
     }
     std::vector<CheckResult> results =
@@ -56,6 +59,7 @@ Exit run(const CheckOptions& o) {
         wrong += r.ok == false, absent += !r.ok;
         rows.push_back({{"case", r.name},
                         {"format", name_of(format)},
+                        {"path_driver", name_of(path_driver)},
                         {"value", r.ok && std::isfinite(r.value) ? Json(r.value) : Json()},
                         {"bound", r.ok ? Json(r.bound) : Json()},
                         {"ok", r.ok ? Json(*r.ok) : Json()},
@@ -65,7 +69,7 @@ Exit run(const CheckOptions& o) {
     }
     if (!o.json.empty()) write_report(o.json, "check", &device.info(), rows);
     if (o.only.empty() && o.level != CheckLevel::tiny)
-        keep_verdict(device.info(), format, verdict_of(results));
+        keep_verdict(device.info(), format, verdict_of(results), path_driver);
     const std::string counts = std::to_string(results.size() - wrong - absent) + " right, " +
                                std::to_string(wrong) + " wrong, " + std::to_string(absent) +
                                " not applicable";
@@ -84,6 +88,7 @@ void add_check(CLI::App& app, Exit& exit) {
     command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
     command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
     add_format(*command, o->format);
+    add_path_driver(*command, o->path_driver);
     CLI::App* level = command->add_option_group("level")->require_option(0, 1);
     const auto at = [&](const char* name, CheckLevel value, const char* words) {
         level->add_flag_callback(

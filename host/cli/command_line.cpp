@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "bvh/bvh.h"
 #include "scene/limits.h"
+#include "trace/path_driver.h"
 
 namespace triad {
 namespace {
@@ -38,6 +39,19 @@ CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format) {
                                           "Nodes that rays walk: bvh8 (eight boxes at once: CPUs) or bvh4 "
                                           "(small and scalar: GPUs). Pictures are "
                                           "the same bit for bit; default: what suits the device")
+        ->type_name("NAME");
+}
+
+CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver) {
+    const auto parse = [&driver](const std::string& name) {
+        driver = find_path_driver(name);
+        if (!driver && name != "auto") bad("--driver", name, "auto, mega or wave");
+    };
+    return command
+        .add_option_function<std::string>(
+            "--driver", parse,
+            "How paths are followed: mega (each to its end), wave (many side by side, stage by stage) or auto "
+            "(what suits the device: mega). Pictures are the same bit for bit")
         ->type_name("NAME");
 }
 

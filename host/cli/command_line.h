@@ -12,6 +12,7 @@
 namespace triad {
 
 enum class BvhFormat;
+enum class PathDriverKind;
 
 /// One subcommand: adds itself to `app`; when it was chosen, parsing runs it and sets `exit`.
 void add_render(CLI::App& app, Exit& exit);
@@ -26,6 +27,8 @@ void add_bench(CLI::App& app, Exit& exit);
 
 /// --format NAME
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);
+/// --driver.
+CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver);
 /// -q and -v.
 void add_common(CLI::App& command);
 

@@ -253,6 +253,7 @@ void declare(CLI::App& command, RenderRequest& o) {
         ->type_name("N")
         ->group(machine_group);
     add_format(command, o.format)->group(machine_group);
+    add_path_driver(command, o.path_driver)->group(machine_group);
     command.add_flag("--force", o.force, "Render even on a device that triad check found wrong")
         ->group(machine_group);
     command

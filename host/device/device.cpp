@@ -226,6 +226,8 @@ void Device::set_preferred_local(std::size_t local) {
 }
 
 const Options& Device::shape() const { return state_->shape; }
+std::map<std::string, std::string>& Device::choices() { return state_->choices; }
+const std::map<std::string, std::string>& Device::choices() const { return state_->choices; }
 void Device::set_shape(Options shape) { state_->shape = std::move(shape); }
 
 double Device::compile_seconds() const { return state_->compile_seconds; }

@@ -241,6 +241,10 @@ class Device {
     const Options& shape() const;
     void set_shape(Options shape);
 
+    /// What else was chosen for the device, by name: for those who chose. Empty at first.
+    std::map<std::string, std::string>& choices();
+    const std::map<std::string, std::string>& choices() const;
+
     double compile_seconds() const;             ///< spent in build() so far
     std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
 

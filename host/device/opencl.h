@@ -94,6 +94,7 @@ struct DeviceState {
     std::optional<Peril> first_runs;                    ///< of kernels, until they have ended
     std::size_t preferred_local = 1;
     Options shape;
+    std::map<std::string, std::string> choices;
     double compile_seconds = 0;
 
     cl_context cl() const { return static_cast<cl_context>(context.get()); }

@@ -12,7 +12,7 @@ namespace triad {
 namespace {
 
 /// Of a launch: watchdogs, cancelling and progress want short ones, overhead long ones.
-const double launch_seconds = std::getenv("WAVE") ? 0.5 : 0.05;
+constexpr double launch_seconds = 0.05;
 /// Launches between two reports, where one sample per pixel takes no longer.
 constexpr double launches_per_pass = 4;
 /// Samples of a pixel in one launch at most.
@@ -235,7 +235,7 @@ class RenderLoop {
         for (auto& tracer : s_.tracers) {
             if (next == work.size()) break;
             const double fit = tracer->pace * time;
-            const std::size_t most = tracer->pace > 0 ? (std::getenv("WAVE") ? 1u << 20 : largest_launch) : 16;
+            const std::size_t most = tracer->pace > 0 ? largest_launch : 16;
             std::size_t n = 0;
             std::uint64_t samples = 0;
             while (next + n < work.size() && n < most &&

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "kernels/types.h"
 #include "trace/node_format.h"
+#include "trace/path_driver.h"
 
 namespace triad {
 namespace {
@@ -49,6 +50,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"device", session.device().info().name},
         {"driver", session.device().info().driver},
         {"format", name_of(format_of(session.device()))},
+        {"path_driver", name_of(path_driver_of(session.device()))},
         {"device_bytes", renderer.device_bytes()},
         {"film_bytes", film_bytes(film)},
         {"bins", {film.bins_x, film.bins_y}},

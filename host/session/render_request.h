@@ -7,6 +7,7 @@
 
 #include "base/math.h"
 #include "bvh/bvh.h"
+#include "trace/path_driver.h"
 #include "pack/settings.h"
 #include "render/schedule.h"
 #include "session/output.h"
@@ -42,7 +43,8 @@ struct RenderRequest {
     ReconstructRequest reconstruct;
     std::string device;
     unsigned threads = 0;
-    std::optional<BvhFormat> format;  ///< of nodes; none: the device's own
+    std::optional<BvhFormat> format;            ///< of nodes; none: the device's own
+    std::optional<PathDriverKind> path_driver;  ///< none: the device's own
 
     int scene_index = -1;
     std::string camera;

@@ -14,6 +14,7 @@
 #include "io/io.h"
 #include "session/prepare.h"
 #include "trace/node_format.h"
+#include "trace/path_driver.h"
 
 namespace triad {
 namespace {
@@ -113,6 +114,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     Metadata metadata = triad::metadata_of(outcome.film);
     metadata["triad:driver"] = device_.info().driver;
     metadata["triad:format"] = name_of(format_of(device_));
+    metadata["triad:path_driver"] = name_of(path_driver_of(device_));
     metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
     metadata["triad:scene_name"] = scene_name();

@@ -1,28 +1,40 @@
 #pragma once
-/// How paths are followed on a device: one launch for whole paths, or a launch for each stage.
+/// How a device follows paths: each to its end before the next, or many side by side, stage by stage. Films
+/// are the same bit for bit.
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "pack/features.h"
 #include "trace/device_scene.h"
 
 namespace triad {
 
+enum class PathDriverKind {
+    mega,  ///< a work-item follows the paths of a pixel, one after the other (kernels/path/mega.cl)
+    wave   ///< a work-item takes a pool of paths through one stage after the other (kernels/path/wave.cl)
+};
+
+const char* name_of(PathDriverKind kind);
+/// None: there is no driver of that name.
+std::optional<PathDriverKind> find_path_driver(const std::string& name);
+
+/// What the device follows paths by from now on; mega until this is called.
+void set_path_driver(Device& device, PathDriverKind kind);
+PathDriverKind path_driver_of(const Device& device);
+
 class PathDriver {
   public:
     virtual ~PathDriver() = default;
 
-    /// Enqueues the samples that a list of work names: `scene` is what kernels that shade begin with, `work`
-    /// the film and the tiles. May wait for the device.
+    /// Enqueues the samples that a list of work names. `scene`: what kernels that shade begin with; `work`:
+    /// the film and the tiles, which lie in one band.
     virtual void trace(const Arguments& scene, const dev::TracePathsArguments& work) = 0;
-    virtual std::uint64_t bytes() const { return 0; }
+    virtual std::uint64_t bytes() const = 0;  ///< of its own
 };
 
-/// `mega`: one work-item follows the paths of a pixel (kernels/path/mega.cl).
-std::unique_ptr<PathDriver> make_mega(Device& device, const RenderSettings& settings,
-                                      const Features& features);
-
-/// `wave`: a launch for each stage over a pool of paths (kernels/path/wave.h).
-std::unique_ptr<PathDriver> make_wave(const DeviceScene& scene, const RenderSettings& settings,
-                                      const Features& features);
+/// Of the device's kind; compiles the kernels.
+std::unique_ptr<PathDriver> make_path_driver(const DeviceScene& scene, const RenderSettings& settings,
+                                             const Features& features);
 
 }  // namespace triad

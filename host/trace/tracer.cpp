@@ -20,7 +20,7 @@ Tracer::Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& s
                                    photons_.map().buffers())),
       part_(device_, shape),
       work_(device_.allocate_array<dev::TileWork>(tile_count(shape.width, shape.height))) {
-    driver_ = std::getenv("WAVE") ? make_wave(*scene_, settings, features) : make_mega(device_, settings, features);
+    driver_ = make_path_driver(*scene_, settings, features);
     part_.clear();
     photons_.compile(options_of(features), arguments_, part_);
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};

@@ -1,17 +1,14 @@
 /* The driver `wave` where a work-item has a pool of its own, and goes through the stages of a round one after the
  * other, each a loop over its slots (path/wave.h): for CPUs, whose caches hold such a pool. */
+#ifndef TRIAD_ITEM_LANES
 #define TRIAD_ITEM_LANES 0
+#endif
 
 #include "common/language.h"
 
 #include "path/wave_stages.h"
 
-/* Slots of a work-item's pool: a multiple of what a vector holds. */
-#ifndef TRIAD_POOL
-#define TRIAD_POOL 256
-#endif
-
-#define WAVE_SLOTS(i) for (size_t i = 0; i < TRIAD_POOL; ++i)
+#define WAVE_SLOTS(i) for (size_t i = 0; i < POOL_SLOTS; ++i)
 #define WAVE_LANES(i) _Pragma("clang loop vectorize(assume_safety)") WAVE_SLOTS(i)
 
 /* Adds to the film the samples that the work names. */
@@ -23,12 +20,12 @@ kernel void trace_wave(SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)) {
     const WaveFilm film = {sums, half_sums, samples, first_pixel};
     const size_t item = get_global_id(0);
     if (item >= pool_count) return;
-    const Pool pool = {states + item * TRIAD_PLANE,
-                       pixels + item * TRIAD_PLANE,
-                       taken + item * TRIAD_PLANE,
-                       paths + item * TRIAD_PLANE * path_words,
-                       hits + item * TRIAD_PLANE * hit_words,
-                       pending + item * TRIAD_PLANE * light_words};
+    const Pool pool = {states + item * POOL_PLANE,
+                       pixels + item * POOL_PLANE,
+                       taken + item * POOL_PLANE,
+                       paths + item * POOL_PLANE * POOL_PATH_PLANES,
+                       hits + item * POOL_PLANE * POOL_HIT_PLANES,
+                       pending + item * POOL_PLANE * POOL_LIGHT_PLANES};
     Tally tally = tally_start();
     WAVE_SLOTS(i) pool.states[i] = WAVE_NEW;
     uint idle;
@@ -39,6 +36,6 @@ kernel void trace_wave(SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)) {
         WAVE_SLOTS(i) wave_edge(&scene, &pool, i, &tally);
         WAVE_LANES(i) { wave_vertex(&scene, &pool, i, &tally); }
         WAVE_SLOTS(i) wave_shadow(&scene, &pool, i, &tally);
-    } while (idle < TRIAD_POOL);
+    } while (idle < POOL_SLOTS);
     tally_add(counters, &tally);
 }

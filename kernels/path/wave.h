@@ -28,12 +28,6 @@
 /* Added to WAVE_END after the longest path that is allowed. */
 #define WAVE_LONGEST 16u
 
-/* From a word of a plane to that of the next. A constant: where the distance of two planes is not known, no
- * compiler makes lanes of slots. No power of two: those would share a few lines of the cache. */
-#ifndef TRIAD_PLANE
-#define TRIAD_PLANE 272
-#endif
-
 /* Words of a slot on their way between planes and a path's members, in the order of the calls. */
 typedef struct Planes {
     global uint* words;
@@ -52,12 +46,12 @@ TRIAD_FUNCTION_PER_CALL Planes planes_store(global uint* words, size_t i) {
 TRIAD_FUNCTION_PER_CALL void planes_uint(Planes* p, uint* member) {
     if (p->stores) p->words[p->next] = *member;
     else *member = p->words[p->next];
-    p->next += TRIAD_PLANE;
+    p->next += POOL_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_float(Planes* p, float* member) {
     if (p->stores) p->words[p->next] = as_uint(*member);
     else *member = as_float(p->words[p->next]);
-    p->next += TRIAD_PLANE;
+    p->next += POOL_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_vec3(Planes* p, Vec3* v) {
     planes_float(p, &v->x), planes_float(p, &v->y), planes_float(p, &v->z);

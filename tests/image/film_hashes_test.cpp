@@ -88,29 +88,44 @@ TEST_P(FilmHashes, are_those_of_the_table) {
 INSTANTIATE_TEST_SUITE_P(Table, FilmHashes, testing::ValuesIn(table().cases),
                          [](const auto& info) { return info.param.name; });
 
-/// With the other format of nodes.
-class FilmHashesOfBvh4 : public testing::TestWithParam<FilmCase> {};
+/// Ways to the same film: another format of nodes, another driver of paths. The tables' films are those of bvh8
+/// and mega.
+struct OtherWay {
+    FilmCase film;
+    std::string name, options;
+};
+void PrintTo(const OtherWay& w, std::ostream* out) { *out << w.film.options << w.options; }
 
-TEST_P(FilmHashesOfBvh4, are_those_of_the_table) {
-    const FilmCase& c = GetParam();
-    if (const auto reason = why_not(c.options)) GTEST_SKIP() << *reason;
-    const Film film = film_of(c, " --format bvh4");
+class FilmHashesOfOtherWays : public testing::TestWithParam<OtherWay> {};
+
+TEST_P(FilmHashesOfOtherWays, are_those_of_the_table) {
+    const OtherWay& way = GetParam();
+    if (const auto reason = why_not(way.film.options)) GTEST_SKIP() << *reason;
+    const Film film = film_of(way.film, way.options);
     if (const std::string reason = other_driver(film); !reason.empty()) GTEST_SKIP() << reason;
-    EXPECT_EQ(differences(hashes_of(film), c.expected), "") << c.name << " (" << c.options << ")";
+    EXPECT_EQ(differences(hashes_of(film), way.film.expected), "") << way.film.name << " (" << way.film.options
+                                                                   << way.options << ")";
 }
 
-std::vector<FilmCase> every(std::size_t step) {
-    std::vector<FilmCase> some;
-    for (std::size_t i = 0; i < table().cases.size(); i += step) some.push_back(table().cases[i]);
-    return some;
+/// Every step-th film of the table, from another one on for each way.
+std::vector<OtherWay> other_ways(std::size_t step) {
+    std::vector<OtherWay> ways;
+    const std::pair<const char*, const char*> all[] = {
+        {"bvh4", " --format bvh4"}, {"wave", " --driver wave"}, {"both", " --format bvh4 --driver wave"}};
+    for (std::size_t w = 0; w < std::size(all); ++w)
+        for (std::size_t i = step == 1 ? 0 : w; i < table().cases.size(); i += w == 1 ? (step + 1) / 2 : step)
+            ways.push_back({table().cases[i], all[w].first, all[w].second});
+    return ways;
 }
 
-INSTANTIATE_TEST_SUITE_P(Some, FilmHashesOfBvh4, testing::ValuesIn(every(8)),
-                         [](const auto& info) { return info.param.name; });
-// All of them take as long again as the table: --gtest_also_run_disabled_tests
-// --gtest_filter='*FilmHashesOfBvh4*'
-INSTANTIATE_TEST_SUITE_P(DISABLED_All, FilmHashesOfBvh4, testing::ValuesIn(every(1)),
-                         [](const auto& info) { return info.param.name; });
+std::string name_of_way(const testing::TestParamInfo<OtherWay>& info) {
+    return info.param.film.name + "_" + info.param.name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Some, FilmHashesOfOtherWays, testing::ValuesIn(other_ways(8)), name_of_way);
+// All of them take three times as long as the table: --gtest_also_run_disabled_tests
+// --gtest_filter='*FilmHashesOfOtherWays*'
+INSTANTIATE_TEST_SUITE_P(DISABLED_All, FilmHashesOfOtherWays, testing::ValuesIn(other_ways(1)), name_of_way);
 
 /// The same film, in several pieces on a device that allocates little.
 Film film_in_bands(const FilmCase& c) {
