@@ -57,6 +57,18 @@ TRIAD_FUNCTION float slab_plane(const SlabAxis* s, uint bytes, int child) {
     return fma((float)(bytes >> (8 * child) & 0xffu), s->cell, s->offset);
 }
 
+/* Puts the nearer of two children first. */
+TRIAD_FUNCTION void slab_order(float entry[4], uint child[4], int a, int b) {
+    if (entry[b] < entry[a]) {
+        const float farther = entry[a];
+        const uint other = child[a];
+        entry[a] = entry[b];
+        child[a] = child[b];
+        entry[b] = farther;
+        child[b] = other;
+    }
+}
+
 /* Four boxes: children by rising entry distance, those that the ray does not meet within [0, t_max] last.
  * Returns how many it meets. */
 TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* ray, float t_max,
@@ -79,22 +91,17 @@ TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* r
                                   math_max(slab_plane(&sz, sz.near, c), 0.0f));
         const float tf = math_min(math_min(slab_plane(&sx, sx.far, c), slab_plane(&sy, sy.far, c)),
                                   math_min(slab_plane(&sz, sz.far, c), t_max));
-        /* An empty child is never met, and no other one infinitely far: those that are not are sorted there.
-         */
+        /* An empty child is never met, and no other one infinitely far: there the others are sorted. */
         const int is_met = tn <= tf && tn < INFINITY && child[c] != BVH_EMPTY;
         entry[c] = is_met ? tn : INFINITY;
         met += (uint)is_met;
     }
-#define SLAB_SORT(a, b)                                                                 \
-    if (entry[b] < entry[a]) {                                                          \
-        const float farther = entry[a];                                                 \
-        const uint other = child[a];                                                    \
-        entry[a] = entry[b], child[a] = child[b], entry[b] = farther, child[b] = other; \
-    }
-    SLAB_SORT(0, 1)
-    SLAB_SORT(2, 3) SLAB_SORT(0, 2) SLAB_SORT(1, 3) SLAB_SORT(1, 2)
-#undef SLAB_SORT
-        return met;
+    slab_order(entry, child, 0, 1);
+    slab_order(entry, child, 2, 3);
+    slab_order(entry, child, 0, 2);
+    slab_order(entry, child, 1, 3);
+    slab_order(entry, child, 1, 2);
+    return met;
 }
 
 #else
