@@ -4,7 +4,6 @@
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "session/choose_view.h"
-#include "trace/node_format.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -102,11 +101,11 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 
 Device open_device(const RenderRequest& o) {
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    set_format(device, o.format.value_or(default_format(device.info())));
-    const std::size_t local = ensure_tuned(device);
+    Tuning wishes;
+    if (o.format) wishes["format"] = name_of(*o.format);
+    const Tuning tuning = ensure_tuned(device, wishes);
     require_right(ensure_checked(device), device.info(), o.force);
-    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", nodes " +
-           name_of(format_of(device)) + ", work-groups of " + std::to_string(local));
+    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning));
     return device;
 }
 
