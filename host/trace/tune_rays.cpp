@@ -1,5 +1,6 @@
 #include "trace/tune_rays.h"
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <random>
