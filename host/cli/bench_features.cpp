@@ -8,7 +8,6 @@
 #include "base/interrupt.h"
 #include "bench/feature_bench.h"
 #include "report/report.h"
-#include "trace/node_format.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -69,7 +68,6 @@ Exit run(const BenchFeaturesOptions& o) {
     const InterruptGuard guard;
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    set_format(device, default_format(device.info()));
     ensure_tuned(device);
     const bool lines = o.json != "-";
     if (lines) print_header(device.info());

@@ -36,11 +36,13 @@ void print(const CheckResult& r) {
 Exit run(const CheckOptions& o) {
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    const BvhFormat format = o.format.value_or(default_format(device.info()));
-    set_format(device, format);
+    if (o.level == CheckLevel::tiny)
+        set_format(device, o.format.value_or(default_format(device.info())));
+    else
+        ensure_tuned(device, o.format ? Tuning{{"format", name_of(*o.format)}} : Tuning{});
     if (o.path_driver) set_path_driver(device, *o.path_driver);
+    const BvhFormat format = format_of(device);
     const PathDriverKind path_driver = path_driver_of(device);
-    if (o.level != CheckLevel::tiny) ensure_tuned(device);
     const bool lines = o.json != "-";
     if (lines) {
         std::printf("%s, %s, driver %s\n", device.info().name.c_str(), device.info().platform.c_str(),

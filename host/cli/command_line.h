@@ -18,6 +18,7 @@ enum class PathDriverKind;
 void add_render(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 void add_devices(CLI::App& app, Exit& exit);
+void add_tune(CLI::App& app, Exit& exit);
 void add_check(CLI::App& app, Exit& exit);
 void add_merge(CLI::App& app, Exit& exit);
 void add_resolve(CLI::App& app, Exit& exit);

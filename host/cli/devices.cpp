@@ -9,9 +9,24 @@
 #include "device/device.h"
 #include "report/report.h"
 #include "trace/node_format.h"
+#include "trace/tune.h"
 
 namespace triad {
 namespace {
+
+/// What was measured best; empty: nothing was.
+Tuning tuned(const DeviceInfo& device) {
+    const auto timings = load_timings(device);
+    return timings ? best_of(*timings) : Tuning{};
+}
+
+/// Of the nodes that the device would walk.
+std::optional<Verdict> verdict_on(const DeviceInfo& device) {
+    const Tuning tuning = tuned(device);
+    const auto format = tuning.find("format");
+    return load_verdict(device,
+                        format == tuning.end() ? default_format(device) : *find_bvh_format(format->second));
+}
 
 void print(const DeviceList& list) {
     std::printf("  #  type  device\n");
@@ -25,10 +40,13 @@ void print(const DeviceList& list) {
                     d.correctly_rounded ? "yes" : "no", d.fp64 ? "yes" : "no");
         for (const std::string& setting : d.settings) std::printf("           %s\n", setting.c_str());
         if (d.usable) {
-            const auto verdict = load_verdict(d, default_format(d));
+            const auto verdict = verdict_on(d);
             std::printf("           %s\n", !verdict                 ? "not checked yet (triad check)"
                                            : verdict->wrong.empty() ? "checked: right"
                                                                     : "checked: WRONG (triad check)");
+            const std::string best = text_of(tuned(d));
+            std::printf("           %s\n",
+                        best.empty() ? "not tuned yet (triad tune)" : ("tuned: " + best).c_str());
         }
         if (!d.usable) std::printf("           UNUSABLE: %s\n", d.why_unusable.c_str());
     }
@@ -43,6 +61,7 @@ Exit run(const std::string& json) {
     const DeviceInfo* chosen = nullptr;
     for (const DeviceInfo& device : list.devices) {
         rows.push_back(to_json(device));
+        rows.back()["tuned"] = tuned(device);
         if (device.preferred) chosen = &device;
     }
     for (const PlatformProblem& problem : list.problems)

@@ -53,6 +53,7 @@ int run(int argc, char** argv) {
     add_compare(app, exit);
     add_panel(app, exit);
     add_devices(app, exit);
+    add_tune(app, exit);
     add_check(app, exit);
     add_bench(app, exit);
     for (CLI::App* command : app.get_subcommands(nullptr)) {

@@ -86,7 +86,7 @@ Device Device::open(const Settings& settings) {
     state->queue = own(queue, clReleaseCommandQueue, state->core);
 
     Device device(std::move(state));
-    device.set_preferred_local(load_tuned_local(found.info).value_or(default_local));
+    device.set_preferred_local(default_local);
     return device;
 }
 

@@ -66,12 +66,6 @@ DeviceList list_devices();
 /// `folder` of the cache folder; empty when nothing can be kept.
 std::filesystem::path kept_path(const DeviceInfo& device, const std::string& folder);
 
-/// Work-group size that an earlier search on this device and driver found best for divergent kernels; none
-/// when there was no search for the kernels as they are now. Kept in the cache folder.
-std::optional<std::size_t> load_tuned_local(const DeviceInfo& device);
-/// Keeps the result of such a search. A cache folder that cannot be written costs a warning only.
-void store_tuned_local(const DeviceInfo& device, std::size_t local);
-
 /// An error of the OpenCL layer: exit code 5 (4 when memory ran out). what() has the call, the code by name
 /// and number, device, driver, program, kernel, build options and the whole build log, as far as they apply.
 class DeviceError : public Error {
@@ -231,8 +225,7 @@ class Device {
     void run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local = 0);
     void finish();
 
-    /// Work-group size that was measured best on this device and driver for divergent kernels (64 until
-    /// tuned).
+    /// Work-group size for kernels that say none: 64 until another was measured best (trace/tune.h).
     std::size_t preferred_local() const;
     void set_preferred_local(std::size_t local);
 

@@ -4,7 +4,6 @@
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "session/choose_view.h"
-#include "trace/node_format.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
 
@@ -103,12 +102,13 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 
 Device open_device(const RenderRequest& o) {
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    set_format(device, o.format.value_or(default_format(device.info())));
+    Tuning wishes;
+    if (o.format) wishes["format"] = name_of(*o.format);
+    const Tuning tuning = ensure_tuned(device, wishes);
     if (o.path_driver) set_path_driver(device, *o.path_driver);
-    const std::size_t local = ensure_tuned(device);
     require_right(ensure_checked(device), device.info(), o.force);
-    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", nodes " +
-           name_of(format_of(device)) + ", paths by " + name_of(path_driver_of(device)) + ", work-groups of " + std::to_string(local));
+    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning) +
+           ", paths by " + name_of(path_driver_of(device)));
     return device;
 }
 

@@ -1,91 +1,119 @@
 #include "trace/tune.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <random>
 
-#include "bvh/bvh.h"
-#include "scene/shapes.h"
+#include "base/log.h"
 #include "trace/node_format.h"
+#include "trace/tune_rays.h"
 
 namespace triad {
 namespace {
 
-constexpr std::size_t default_local = 64;
+constexpr double clearly_faster = 0.95;
 
-/// Incoherent rays inside a bumpy sphere: long walks that differ from item to item.
-std::vector<dev::Ray> tuning_rays(std::size_t count) {
-    std::mt19937 random(1);
-    const auto uniform = [&] { return float(random() >> 8) * 0x1p-23f - 1.0f; };
-    std::vector<dev::Ray> rays(count);
-    for (dev::Ray& ray : rays) {
-        for (int a = 0; a < 3; ++a) ray.origin[a] = 0.4f * uniform(), ray.direction[a] = uniform();
-        ray.t_max = std::numeric_limits<float>::infinity();
-        ray.skip_instance = ray.skip_primitive = TRIAD_NONE;
+std::vector<std::string> formats_for(const Device& device) {
+    const BvhFormat first = default_format(device.info());
+    std::vector<std::string> names{name_of(first)};
+    for (const BvhFormat format : all_bvh_formats)
+        if (format != first) names.push_back(name_of(format));
+    return names;
+}
+
+std::vector<std::string> locals_for(const Device& device) {
+    std::vector<std::string> sizes;
+    for (const std::size_t local : {std::size_t(64), std::size_t(8), std::size_t(1)})
+        if (local <= std::max<std::size_t>(1, device.info().max_work_group))
+            sizes.push_back(std::to_string(local));
+    return sizes;
+}
+
+void set_all(Device& device, const Tuning& tuning) {
+    for (const TuneSearch& search : tune_searches())
+        for (const TuneAxis& axis : search.axes)
+            if (const auto found = tuning.find(axis.name); found != tuning.end())
+                axis.set(device, found->second);
+}
+
+/// Every combination of values from axis `next` on, the preferred ones first.
+void time_all(Device& device, const TuneSearch& search, Workload& workload, std::size_t next, Tuning& values,
+              std::vector<TuneTiming>& timings) {
+    if (next == search.axes.size()) {
+        timings.push_back({search.name, values, workload.seconds()});
+        detail("tuning " + std::string(search.name) + ": " + text_of(values) + ": " +
+               std::to_string(1e3 * timings.back().seconds) + " ms");
+        return;
     }
-    return rays;
+    const TuneAxis& axis = search.axes[next];
+    for (const std::string& value : axis.values(device)) {
+        axis.set(device, value);
+        values[axis.name] = value;
+        time_all(device, search, workload, next + 1, values, timings);
+    }
+}
+
+bool grants(const Tuning& values, const Tuning& wishes) {
+    return std::all_of(values.begin(), values.end(), [&](const auto& v) {
+        const auto wish = wishes.find(v.first);
+        return wish == wishes.end() || wish->second == v.second;
+    });
 }
 
 }  // namespace
 
-std::vector<LocalTiming> time_locals(Device& device) {
-    const Primitive shape = shapes::displaced_sphere(vec3(0.0f), 1.0f, 128, 64, 0.3f, 6.0f, 1);
-    std::vector<BvhTriangle> triangles;
-    for (const uvec3& t : shape.triangles)
-        triangles.push_back({{shape.positions[t.x], shape.positions[t.y], shape.positions[t.z]},
-                             std::uint32_t(triangles.size())});
-    BvhPool pool;
-    pool.formats = {format_of(device)};
-    const std::uint32_t root = build_bvh(triangles, {}, 1.0f, pool)[std::size_t(format_of(device))];
-    const Buffer nodes = nodes_on(device, pool), blocks = device.upload(pool.blocks);
-    const Kernel kernel =
-        device.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}}).kernel("intersect_closest");
+const std::vector<TuneSearch>& tune_searches() {
+    static const std::vector<TuneSearch> searches{
+        {"rays",
+         {{"format", formats_for,
+           [](Device& device, const std::string& name) { set_format(device, *find_bvh_format(name)); }},
+          {"local", locals_for,
+           [](Device& device, const std::string& size) { device.set_preferred_local(std::stoul(size)); }}},
+         make_ray_workload}};
+    return searches;
+}
 
-    const auto seconds = [&](std::size_t count, std::size_t local) {
-        const Buffer rays = device.upload(tuning_rays(count)),
-                     hits = device.allocate(count * sizeof(dev::Hit));
-        const Arguments arguments =
-            Arguments().add(nodes).add(blocks).add(Buffer{}).add(root).add(rays).add(hits).add(
-                std::uint32_t(count));
-        double best = std::numeric_limits<double>::infinity();
-        for (int launch = 0; launch < 4; ++launch) {  // the first compiles and is never the best
-            device.finish();
-            const auto start = std::chrono::steady_clock::now();
-            device.run(kernel, arguments, count, local);
-            device.finish();
-            best = std::min(best,
-                            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-        }
-        return best;
-    };
-    // As many rays as keep the device busy for some 20 ms.
-    std::size_t count = 1u << 14;
-    while (count < (1u << 22) && seconds(count, default_local) < 0.01) count *= 2;
-
-    std::vector<LocalTiming> timings;
-    for (const std::size_t local : {std::size_t(1), std::size_t(8), default_local})
-        if (local <= std::max<std::size_t>(1, device.info().max_work_group))
-            timings.push_back({local, seconds(count, local)});
+std::vector<TuneTiming> tune(Device& device) {
+    std::vector<TuneTiming> timings;
+    for (const TuneSearch& search : tune_searches()) {
+        const auto workload = search.make(device);
+        Tuning values;
+        time_all(device, search, *workload, 0, values, timings);
+    }
+    keep_timings(device.info(), timings);
+    set_all(device, best_of(timings));
     return timings;
 }
 
-std::size_t tune_local(Device& device) {
-    const std::vector<LocalTiming> timings = time_locals(device);
-    LocalTiming best = timings.back();  // the largest, if nothing is clearly faster
-    const double limit = 0.95 * best.seconds;
-    for (const LocalTiming& timing : timings)
-        if (timing.seconds < limit && timing.seconds < best.seconds) best = timing;
-    device.set_preferred_local(best.local);
-    store_tuned_local(device.info(), best.local);
-    return best.local;
+Tuning best_of(const std::vector<TuneTiming>& timings, const Tuning& wishes) {
+    std::map<std::string, TuneTiming> best;
+    for (const TuneTiming& timing : timings) {
+        if (!grants(timing.values, wishes)) continue;
+        const auto [found, is_first] = best.try_emplace(timing.search, timing);
+        if (is_first) continue;
+        const auto preferred = std::find_if(timings.begin(), timings.end(), [&](const TuneTiming& t) {
+            return t.search == timing.search && grants(t.values, wishes);
+        });
+        if (timing.seconds < found->second.seconds && timing.seconds < clearly_faster * preferred->seconds)
+            found->second = timing;
+    }
+    Tuning all;
+    for (const auto& [search, timing] : best) all.insert(timing.values.begin(), timing.values.end());
+    return all;
 }
 
-std::size_t ensure_tuned(Device& device) {
-    const auto kept = load_tuned_local(device.info());
-    if (!kept) return tune_local(device);
-    device.set_preferred_local(*kept);
-    return *kept;
+Tuning ensure_tuned(Device& device, const Tuning& wishes) {
+    const auto kept = load_timings(device.info());
+    const Tuning best = best_of(kept ? *kept : tune(device), wishes);
+    for (const auto& [name, value] : wishes)
+        if (const auto found = best.find(name); found == best.end() || found->second != value)
+            throw Error(Exit::usage, name + " " + value + ": the device cannot be set so.");
+    set_all(device, best);
+    return best;
+}
+
+std::string text_of(const Tuning& tuning) {
+    std::string text;
+    for (const auto& [name, value] : tuning) text += (text.empty() ? "" : ", ") + name + " " + value;
+    return text;
 }
 
 }  // namespace triad

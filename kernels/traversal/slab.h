@@ -57,10 +57,9 @@ TRIAD_FUNCTION float slab_plane(const SlabAxis* s, uint bytes, int child) {
     return fma((float)(bytes >> (8 * child) & 0xffu), s->cell, s->offset);
 }
 
-/* Four boxes: children by rising entry distance, those that the ray does not meet within [0, t_max] last.
- * Returns how many it meets. */
-TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* ray, float t_max,
-                                   uint child[4]) {
+/* Four boxes: entry distances; INFINITY for those that the ray does not meet within [0, t_max]. */
+TRIAD_FUNCTION void slab_intersect(global const Bvh4Node* node, const SlabRay* ray, float t_max,
+                                   float entry[4], uint child[4]) {
     /* A node is four vectors of 16 bytes: as many loads. */
     global const uint4* words = (global const uint4*)node;
     const uint4 grid = words[0], xy = words[1], z = words[2], rest = words[3];
@@ -71,30 +70,15 @@ TRIAD_FUNCTION uint slab_intersect(global const Bvh4Node* node, const SlabRay* r
     child[1] = z.w;
     child[2] = rest.x;
     child[3] = rest.y;
-    float entry[4];
-    uint met = 0u;
 #pragma unroll
     for (int c = 0; c < 4; ++c) {
         const float tn = math_max(math_max(slab_plane(&sx, sx.near, c), slab_plane(&sy, sy.near, c)),
                                   math_max(slab_plane(&sz, sz.near, c), 0.0f));
         const float tf = math_min(math_min(slab_plane(&sx, sx.far, c), slab_plane(&sy, sy.far, c)),
                                   math_min(slab_plane(&sz, sz.far, c), t_max));
-        /* An empty child is never met, and no other one infinitely far: those that are not are sorted there.
-         */
-        const int is_met = tn <= tf && tn < INFINITY && child[c] != BVH_EMPTY;
-        entry[c] = is_met ? tn : INFINITY;
-        met += (uint)is_met;
+        /* An empty child is never met, whatever a ray that is no number compares like. */
+        entry[c] = tn <= tf && child[c] != BVH_EMPTY ? tn : INFINITY;
     }
-#define SLAB_SORT(a, b)                                                                 \
-    if (entry[b] < entry[a]) {                                                          \
-        const float farther = entry[a];                                                 \
-        const uint other = child[a];                                                    \
-        entry[a] = entry[b], child[a] = child[b], entry[b] = farther, child[b] = other; \
-    }
-    SLAB_SORT(0, 1)
-    SLAB_SORT(2, 3) SLAB_SORT(0, 2) SLAB_SORT(1, 3) SLAB_SORT(1, 2)
-#undef SLAB_SORT
-        return met;
 }
 
 #else

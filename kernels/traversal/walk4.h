@@ -19,6 +19,38 @@ TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const
     return 0;
 }
 
+/* Puts the nearer of two children first. */
+TRIAD_FUNCTION void traversal_order(float entry[4], uint child[4], int a, int b) {
+    if (entry[b] < entry[a]) {
+        const float farther = entry[a];
+        const uint other = child[a];
+        entry[a] = entry[b];
+        child[a] = child[b];
+        entry[b] = farther;
+        child[b] = other;
+    }
+}
+
+/* Which child of a node is walked next, TRIAD_NONE: none; the others that the ray meets go to the stack.
+ * Nearer ones come first; with `any` those of larger boxes, as the node has them. */
+TRIAD_FUNCTION uint traversal_choose(float entry[4], uint child[4], uint* stack, uint* size, const int any) {
+    if (!any) {
+        traversal_order(entry, child, 0, 1);
+        traversal_order(entry, child, 2, 3);
+        traversal_order(entry, child, 0, 2);
+        traversal_order(entry, child, 1, 3);
+        traversal_order(entry, child, 1, 2);
+    }
+    uint next = TRIAD_NONE;
+#pragma unroll
+    for (int c = 3; c >= 0; --c)
+        if (entry[c] < INFINITY) {
+            if (next != TRIAD_NONE) stack[(*size)++] = next;
+            next = child[c];
+        }
+    return next;
+}
+
 /* The walk. `any` is a constant of the call: 1 stops at the first hit and returns 1, 0 leaves the closest in
  * `best`. */
 TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ray, Hit* best, const int any) {
@@ -45,13 +77,12 @@ TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ra
             continue;
 #endif
         } else {
+            float entry[4];
             uint children[4];
-            const uint met = slab_intersect(scene->nodes + child, &space.slab, best->t, children);
-            if (met > 3u) stack[size++] = children[3];
-            if (met > 2u) stack[size++] = children[2];
-            if (met > 1u) stack[size++] = children[1];
-            if (met > 0u) {
-                child = children[0];
+            slab_intersect(scene->nodes + child, &space.slab, best->t, entry, children);
+            const uint next = traversal_choose(entry, children, stack, &size, any);
+            if (next != TRIAD_NONE) {
+                child = next;
                 continue;
             }
         }

@@ -52,6 +52,11 @@ std::string contents(const fs::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
+std::vector<TuneTiming> some_timings() {
+    return {{"rays", {{"format", "bvh8"}, {"local", "64"}}, 1.0},
+            {"rays", {{"format", "bvh4"}, {"local", "8"}}, 0.5}};
+}
+
 TEST_F(Cache, holds_one_entry_per_text_and_options_unless_the_driver_keeps_its_own) {
     EXPECT_EQ(answer(), 42u);
     const std::size_t each = test_device().info().platform == "Portable Computing Language" ? 0 : 1;
@@ -80,27 +85,30 @@ TEST_F(Cache, survives_damaged_entries_and_mends_them) {
 TEST_F(Cache, that_cannot_be_written_is_a_temporary_one_of_this_process) {
     std::ofstream(folder) << "a file where the folder should be";
     EXPECT_EQ(answer(), 42u);
-    EXPECT_FALSE(load_tuned_local(test_device().info()));
-    store_tuned_local(test_device().info(), 8);
-    EXPECT_EQ(load_tuned_local(test_device().info()), 8u);
+    EXPECT_FALSE(load_timings(test_device().info()));
+    keep_timings(test_device().info(), some_timings());
+    EXPECT_TRUE(load_timings(test_device().info()));
 }
 
-TEST_F(Cache, keeps_the_tuned_group_size_per_device_and_driver) {
+TEST_F(Cache, keeps_what_was_tuned_per_device_and_driver) {
     const DeviceInfo& info = test_device().info();
-    EXPECT_FALSE(load_tuned_local(info));
-    EXPECT_EQ(again().preferred_local(), std::min<std::size_t>(64, info.max_work_group));
-    store_tuned_local(info, 8);
-    EXPECT_EQ(load_tuned_local(info), 8u);
-    EXPECT_EQ(again().preferred_local(), 8u);
+    EXPECT_FALSE(load_timings(info));
+    keep_timings(info, some_timings());
+    ASSERT_TRUE(load_timings(info));
+    EXPECT_EQ(best_of(*load_timings(info)), (Tuning{{"format", "bvh4"}, {"local", "8"}}));
     DeviceInfo other = info;
     other.driver += " next";
-    EXPECT_FALSE(load_tuned_local(other));
+    EXPECT_FALSE(load_timings(other));
     for (const char* bad :
-         {"", "{", "[]", "{\"schema\": \"triad.tuned/1\", \"local\": 0}", "{\"schema\": 3, \"local\": 8}",
-          "{\"schema\": \"triad.tuned/1\", \"local\": \"8\"}"}) {
+         {"", "{", "[]", "{\"schema\": \"triad.tuned/1\", \"local\": 8}", "{\"schema\": 3, \"timings\": []}",
+          "{\"schema\": \"triad.tuned/2\", \"timings\": []}",
+          "{\"schema\": \"triad.tuned/2\", \"timings\": [1]}",
+          "{\"schema\": \"triad.tuned/2\", \"timings\": [{\"search\": \"rays\", \"seconds\": 1, \"values\": "
+          "{\"local\": "
+          "\"8\"}}]}"}) {
         for (const auto& entry : fs::directory_iterator(folder / "triad/tuned"))
             std::ofstream(entry.path()) << bad;
-        EXPECT_FALSE(load_tuned_local(info)) << bad;
+        EXPECT_FALSE(load_timings(info)) << bad;
     }
 }
 

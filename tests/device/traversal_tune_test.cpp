@@ -1,4 +1,5 @@
-// Work-group sizes: they change the time and nothing else, and the search keeps what it found.
+// Work-group sizes and formats of nodes: they change the time and nothing else, and the search keeps what it
+// found.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -25,6 +26,7 @@ class TraversalTune : public ::testing::Test {
     }
     ~TraversalTune() override {
         test_device().set_preferred_local(local_);
+        set_format(test_device(), format_);
         old_cache_.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", old_cache_.c_str(), 1);
         std::filesystem::remove_all(folder_);
     }
@@ -34,6 +36,7 @@ class TraversalTune : public ::testing::Test {
         std::filesystem::temp_directory_path() / ("triad-tune-" + std::to_string(getpid()));
     std::string old_cache_;
     std::size_t local_ = test_device().preferred_local();
+    BvhFormat format_ = format_of(test_device());
 };
 
 TEST_F(TraversalTune, the_work_group_size_changes_no_bit) {
@@ -53,16 +56,49 @@ TEST_F(TraversalTune, the_work_group_size_changes_no_bit) {
     }
 }
 
-TEST_F(TraversalTune, keeps_the_fastest_size_and_measures_once) {
+TEST_F(TraversalTune, keeps_what_is_fastest_and_measures_once) {
     Device& device = test_device();
-    ASSERT_FALSE(load_tuned_local(device.info()).has_value());
-    const std::size_t found = ensure_tuned(device);
-    EXPECT_EQ(device.preferred_local(), found);
-    EXPECT_EQ(load_tuned_local(device.info()), found);
-    const std::size_t other = found == 8 ? 4 : 8;
-    store_tuned_local(device.info(), other);
-    EXPECT_EQ(ensure_tuned(device), other) << "what is kept is used, not measured again";
-    EXPECT_EQ(device.preferred_local(), other);
+    ASSERT_FALSE(load_timings(device.info()));
+    const Tuning found = ensure_tuned(device);
+    const auto timings = load_timings(device.info());
+    ASSERT_TRUE(timings);
+    EXPECT_GE(timings->size(), 2u) << "both formats at least";
+    EXPECT_EQ(best_of(*timings), found);
+    EXPECT_EQ(name_of(format_of(device)), found.at("format"));
+    EXPECT_EQ(std::to_string(device.preferred_local()), found.at("local"));
+    auto others = *timings;
+    for (TuneTiming& timing : others) timing.seconds = timing.values == found ? 2.0 : 1.0;
+    keep_timings(device.info(), others);
+    EXPECT_NE(ensure_tuned(device), found) << "what is kept is used, not measured again";
+}
+
+TEST_F(TraversalTune, a_wish_is_granted_with_what_is_best_beside_it) {
+    Device& device = test_device();
+    const Tuning best = ensure_tuned(device);
+    for (const BvhFormat format : all_bvh_formats) {
+        EXPECT_EQ(ensure_tuned(device, {{"format", name_of(format)}}).at("format"), name_of(format));
+        EXPECT_EQ(format_of(device), format);
+    }
+    EXPECT_EQ(ensure_tuned(device), best);
+    EXPECT_THROW(ensure_tuned(device, {{"format", "none"}}), Error);
+}
+
+TEST(Tuning, prefers_the_first_unless_another_is_clearly_faster) {
+    const auto timing = [](const char* format, const char* local, double seconds) {
+        return TuneTiming{"rays", {{"format", format}, {"local", local}}, seconds};
+    };
+    const std::vector<TuneTiming> close{timing("a", "64", 1.0), timing("a", "8", 0.97),
+                                        timing("b", "64", 0.96)};
+    EXPECT_EQ(best_of(close), close[0].values);
+    const std::vector<TuneTiming> clear{timing("a", "64", 1.0), timing("a", "8", 0.9), timing("b", "64", 0.5),
+                                        timing("b", "8", 0.49)};
+    EXPECT_EQ(best_of(clear), clear[3].values);
+    EXPECT_EQ(best_of(clear, {{"format", "a"}}), clear[1].values);
+    EXPECT_EQ(best_of(clear, {{"format", "b"}}), clear[2].values) << "0.49 is not clearly less than 0.5";
+    std::vector<TuneTiming> two = clear;
+    two.push_back({"paths", {{"driver", "mega"}}, 3.0});
+    two.push_back({"paths", {{"driver", "wave"}}, 1.0});
+    EXPECT_EQ(best_of(two), (Tuning{{"driver", "wave"}, {"format", "b"}, {"local", "8"}}));
 }
 
 }  // namespace

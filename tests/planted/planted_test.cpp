@@ -142,7 +142,8 @@ TEST(Simulator, sees_an_empty_child_that_a_ray_of_no_numbers_meets) {
             << format;
     };
     expect_seen("bvh8", "tf = t_max < tf ? (float8)(t_max) : tf;", "tf = tf < t_max ? tf : (float8)(t_max);");
-    expect_seen("bvh4", " && child[c] != BVH_EMPTY", "");
+    // In bvh4 one fault is not enough: BVH_EMPTY is TRIAD_NONE, which its walk takes for no child.
+    EXPECT_EQ(oclgrind("", fs::path(TRIAD_SOURCE_DIR) / "kernels", "C25", "bvh4"), "");
 }
 
 TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {
