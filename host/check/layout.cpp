@@ -65,7 +65,7 @@ std::vector<Struct> structs_of_types_h() {
 void structs_have_no_padding(Check& check) {
     const std::string text = types_h();
     const std::vector<Struct> structs = structs_of_types_h();
-    const std::regex any_struct(R"(\bstruct\b)");
+    const std::regex any_struct(R"(\bstruct\b[^;{]*\{)");  // a declaration alone has no layout
     const auto all = std::distance(Matches(text.begin(), text.end(), any_struct), Matches());
     check.equal(structs.size(), static_cast<std::size_t>(all), "the number of structs found");
     for (const Struct& each : structs)

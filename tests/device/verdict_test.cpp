@@ -65,7 +65,7 @@ TEST_F(VerdictTest, that_cannot_be_read_is_none) {
           "{\"schema\": \"triad.verdict/1\", \"wrong\": 1}",
           "{\"schema\": \"triad.verdict/1\", \"wrong\": [1]}"}) {
         keep_verdict(info, BvhFormat::bvh8, {});
-        for (const auto& entry : fs::directory_iterator(folder / "triad/checked/bvh8"))
+        for (const auto& entry : fs::directory_iterator(folder / "triad/checked/mega-bvh8"))
             std::ofstream(entry.path()) << bad;
         EXPECT_FALSE(load_verdict(info, BvhFormat::bvh8)) << bad;
     }
