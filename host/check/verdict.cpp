@@ -47,8 +47,7 @@ std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format, 
     return verdict;
 }
 
-void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict,
-                  PathDriverKind driver) {
+void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict, PathDriverKind driver) {
     const fs::path path = path_of(device, format, driver);
     if (path.empty()) return;
     const nlohmann::json json{{"schema", schema},          {"device", device.name},

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bvh/bvh.h"
-#include "trace/path_driver.h"
 #include "check/check.h"
+#include "trace/path_driver.h"
 
 namespace triad {
 

@@ -7,11 +7,11 @@
 
 #include "base/math.h"
 #include "bvh/bvh.h"
-#include "trace/path_driver.h"
 #include "pack/settings.h"
 #include "render/schedule.h"
 #include "session/output.h"
 #include "session/reconstruct_request.h"
+#include "trace/path_driver.h"
 
 namespace triad {
 

@@ -44,13 +44,17 @@ TRIAD_FUNCTION_PER_CALL Planes planes_store(global uint* words, size_t i) {
     return p;
 }
 TRIAD_FUNCTION_PER_CALL void planes_uint(Planes* p, uint* member) {
-    if (p->stores) p->words[p->next] = *member;
-    else *member = p->words[p->next];
+    if (p->stores)
+        p->words[p->next] = *member;
+    else
+        *member = p->words[p->next];
     p->next += POOL_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_float(Planes* p, float* member) {
-    if (p->stores) p->words[p->next] = as_uint(*member);
-    else *member = as_float(p->words[p->next]);
+    if (p->stores)
+        p->words[p->next] = as_uint(*member);
+    else
+        *member = as_float(p->words[p->next]);
     p->next += POOL_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_vec3(Planes* p, Vec3* v) {

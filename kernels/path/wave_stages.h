@@ -19,15 +19,15 @@ typedef struct Pool {
     global uint* pending; /* PendingLight */
 } Pool;
 
-#define POOL_LOAD(kind, planes, member)                 \
-    do {                                                \
-        Planes pool_planes = planes_load(planes, i);    \
-        planes_##kind(&pool_planes, member);            \
+#define POOL_LOAD(kind, planes, member)              \
+    do {                                             \
+        Planes pool_planes = planes_load(planes, i); \
+        planes_##kind(&pool_planes, member);         \
     } while (0)
-#define POOL_STORE(kind, planes, member)                \
-    do {                                                \
-        Planes pool_planes = planes_store(planes, i);   \
-        planes_##kind(&pool_planes, member);            \
+#define POOL_STORE(kind, planes, member)              \
+    do {                                              \
+        Planes pool_planes = planes_store(planes, i); \
+        planes_##kind(&pool_planes, member);          \
     } while (0)
 
 /* The list of work of a launch. */
@@ -48,8 +48,7 @@ typedef struct WavePixel {
 TRIAD_FUNCTION int wave_pixel(const WaveWork* work, uint pixel, WavePixel* p) {
     const global TileWork* tile = work->tiles + pixel / FILM_TILE_PIXELS;
     const uint in_tile = pixel % FILM_TILE_PIXELS;
-    const int inside =
-        sample_pixel(work->frame->crop, tile->tile * FILM_TILE_PIXELS + in_tile, &p->x, &p->y);
+    const int inside = sample_pixel(work->frame->crop, tile->tile * FILM_TILE_PIXELS + in_tile, &p->x, &p->y);
     const uint set = (p->x ^ p->y) & 1u;
     p->count = tile->sample_count[set];
     p->first = work->first_sample + tile->first_sample[set];
@@ -57,7 +56,8 @@ TRIAD_FUNCTION int wave_pixel(const WaveWork* work, uint pixel, WavePixel* p) {
 }
 
 /* Samples become paths. */
-TRIAD_FUNCTION_PER_CALL void wave_start(const Scene* scene, const WaveWork* work, const Pool* pool, size_t i) {
+TRIAD_FUNCTION_PER_CALL void wave_start(const Scene* scene, const WaveWork* work, const Pool* pool,
+                                        size_t i) {
     if (pool->states[i] == WAVE_START) {
         WavePixel p;
         wave_pixel(work, pool->pixels[i], &p);

@@ -88,8 +88,8 @@ TEST_P(FilmHashes, are_those_of_the_table) {
 INSTANTIATE_TEST_SUITE_P(Table, FilmHashes, testing::ValuesIn(table().cases),
                          [](const auto& info) { return info.param.name; });
 
-/// Ways to the same film: another format of nodes, another driver of paths. The tables' films are those of bvh8
-/// and mega.
+/// Ways to the same film: another format of nodes, another driver of paths. The tables' films are those of
+/// bvh8 and mega.
 struct OtherWay {
     FilmCase film;
     std::string name, options;
@@ -103,8 +103,8 @@ TEST_P(FilmHashesOfOtherWays, are_those_of_the_table) {
     if (const auto reason = why_not(way.film.options)) GTEST_SKIP() << *reason;
     const Film film = film_of(way.film, way.options);
     if (const std::string reason = other_driver(film); !reason.empty()) GTEST_SKIP() << reason;
-    EXPECT_EQ(differences(hashes_of(film), way.film.expected), "") << way.film.name << " (" << way.film.options
-                                                                   << way.options << ")";
+    EXPECT_EQ(differences(hashes_of(film), way.film.expected), "")
+        << way.film.name << " (" << way.film.options << way.options << ")";
 }
 
 /// Every step-th film of the table, from another one on for each way.
