@@ -48,10 +48,10 @@ CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& d
         if (!driver && name != "auto") bad("--driver", name, "auto, mega or wave");
     };
     return command
-        .add_option_function<std::string>(
-            "--driver", parse,
-            "How paths are followed: mega (each to its end), wave (many side by side, stage by stage) or auto "
-            "(what suits the device: mega). Pictures are the same bit for bit")
+        .add_option_function<std::string>("--driver", parse,
+                                          "How paths are followed: mega (each to its end), wave (many side "
+                                          "by side, stage by stage) or auto "
+                                          "(what suits the device: mega). Pictures are the same bit for bit")
         ->type_name("NAME");
 }
 

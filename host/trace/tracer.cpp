@@ -65,7 +65,8 @@ void Tracer::trace(std::size_t first, std::size_t count, std::uint64_t first_sam
 }
 
 std::uint64_t Tracer::bytes() const {
-    return scene_->bytes() + frame_buffer_.bytes() + photons_.bytes() + part_.bytes() + work_.bytes() + driver_->bytes();
+    return scene_->bytes() + frame_buffer_.bytes() + photons_.bytes() + part_.bytes() + work_.bytes() +
+           driver_->bytes();
 }
 
 }  // namespace triad

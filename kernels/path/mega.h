@@ -30,8 +30,7 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
     path_gather(scene, path, &vertex, &bsdf);
 
     PendingLight light;
-    if (path_connect(scene, path, &vertex, &bsdf, &u, &light) &&
-        !path_occluded(scene, &light, tally))
+    if (path_connect(scene, path, &vertex, &bsdf, &u, &light) && !path_occluded(scene, &light, tally))
         path_arrive(scene, path, &light, tally);
 
     Scatter scatter;

@@ -1,5 +1,5 @@
-/* The driver `wave` where a work-item has a pool of its own, and goes through the stages of a round one after the
- * other, each a loop over its slots (path/wave.h): for CPUs, whose caches hold such a pool. */
+/* The driver `wave` where a work-item has a pool of its own, and goes through the stages of a round one after
+ * the other, each a loop over its slots (path/wave.h): for CPUs, whose caches hold such a pool. */
 #ifndef TRIAD_ITEM_LANES
 #define TRIAD_ITEM_LANES 0
 #endif
