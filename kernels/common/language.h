@@ -22,13 +22,18 @@
 #define TRIAD_ITEM_LANES 1
 #endif
 
+/* 1: functions are copied into their callers, with what they hand to each other (docs/kernels.md). */
+#ifndef TRIAD_INLINED
+#define TRIAD_INLINED !TRIAD_ITEM_LANES
+#endif
+
 /* Device functions. `static` keeps OpenCL C 1.2 and 3.0 from asking for an external definition of an inline
  * function. None writes to a struct that it takes by value: Mesa's drivers (22.3.6) make no copy of it, and
  * the caller's variable would change (docs/kernels.md). */
-#if TRIAD_ITEM_LANES
-#define TRIAD_FUNCTION static inline
-#else
+#if TRIAD_INLINED && !defined(TRIAD_CALLS)
 #define TRIAD_FUNCTION static inline __attribute__((always_inline))
+#else
+#define TRIAD_FUNCTION static inline
 #endif
 /* Copied into every caller however large it is: callers pass constants that decide its shape, or the call
  * costs more than the copy. */

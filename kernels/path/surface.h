@@ -21,24 +21,8 @@ typedef struct Vertex {
 #endif
 } Vertex;
 
-/* The bodies that meet here; the one along the edge has absorbed its part. */
-TRIAD_FUNCTION VertexBodies path_bodies(const Scene* scene, PathState* path, const Surface* s, int back) {
-#if TRIAD_TRANSMISSION
-    const VertexBodies around = vertex_bodies(scene, s, back, path->bodies);
-    path->bodies = around.here;
-    if (around.here.x != TRIAD_NONE && !path_is_back(path))
-        path->throughput =
-            colour_mul(path->throughput, path_transmittance(&path->colours, scene->materials + around.here.x,
-                                                            vec3_length(vec3_sub(s->position, path->from))));
-    path->from = s->position;
-    return around;
-#else
-    (void)path;
-    return vertex_bodies(scene, s, back, bodies_none());
-#endif
-}
-
-TRIAD_FUNCTION Vertex path_surface(const Scene* scene, PathState* path, const Hit* hit, Tally* tally) {
+/* What lies there. */
+TRIAD_FUNCTION Vertex path_look(const Scene* scene, const PathState* path, const Hit* hit) {
     Vertex v;
     v.hit = *hit;
     v.surface = surface_make(scene, hit);
@@ -46,11 +30,36 @@ TRIAD_FUNCTION Vertex path_surface(const Scene* scene, PathState* path, const Hi
     v.surface.base_values = path_colour(&path->colours, v.surface.base_colour);
     v.surface.specular_values = path_colour(&path->colours, v.surface.specular_colour);
 #endif
-    record_vertex(tally, path, v.surface.position, hit, v.surface.material);
     v.wo = vec3_negate(path_direction(path));
     v.back = vec3_dot(v.wo, v.surface.geometric_normal) < 0.0f;
     v.ng = v.back ? vec3_negate(v.surface.geometric_normal) : v.surface.geometric_normal;
-    v.around = path_bodies(scene, path, &v.surface, v.back);
+#if TRIAD_TRANSMISSION
+    v.around = vertex_bodies(scene, &v.surface, v.back, path->bodies);
+#else
+    v.around = vertex_bodies(scene, &v.surface, v.back, bodies_none());
+#endif
+    return v;
+}
+
+/* The path is here; the body along the edge has absorbed its part. */
+TRIAD_FUNCTION void path_reach(const Scene* scene, PathState* path, const Vertex* v) {
+#if TRIAD_TRANSMISSION
+    const uint body = v->around.here.x;
+    path->bodies = v->around.here;
+    if (body != TRIAD_NONE && !path_is_back(path))
+        path->throughput = colour_mul(
+            path->throughput, path_transmittance(&path->colours, scene->materials + body,
+                                                 vec3_length(vec3_sub(v->surface.position, path->from))));
+    path->from = v->surface.position;
+#else
+    (void)scene, (void)path, (void)v;
+#endif
+}
+
+TRIAD_FUNCTION Vertex path_surface(const Scene* scene, PathState* path, const Hit* hit, Tally* tally) {
+    const Vertex v = path_look(scene, path, hit);
+    record_vertex(tally, path, v.surface.position, hit, v.surface.material);
+    path_reach(scene, path, &v);
     return v;
 }
 

@@ -23,12 +23,7 @@ kernel void trace_wave(SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)) {
     const WaveFilm film = {sums, half_sums, samples, first_pixel};
     const size_t item = get_global_id(0);
     if (item >= pool_count) return;
-    const Pool pool = {states + item * POOL_PLANE,
-                       pixels + item * POOL_PLANE,
-                       taken + item * POOL_PLANE,
-                       paths + item * POOL_PLANE * POOL_PATH_PLANES,
-                       hits + item * POOL_PLANE * POOL_HIT_PLANES,
-                       pending + item * POOL_PLANE * POOL_LIGHT_PLANES};
+    const Pool pool = pool_at(item, states, pixels, taken, paths, hits, pending);
     Tally tally = tally_start();
     WAVE_SLOTS(i) pool.states[i] = WAVE_NEW;
     uint idle;

@@ -1,13 +1,16 @@
-/* The driver `wave`: a pool of paths, which all do one stage before any does the next, so that compilers can
- * make lanes of them. A path has a slot of the pool, which follows the samples of one pixel after the other,
- * so that a pixel's sums have one owner; pixels without a slot wait in the launch's list of work.
+/* The driver `wave`: a pool of paths, which all do one stage before any does the next, so that they can be
+ * lanes, and so that each stage has few registers to keep. A path has a slot of the pool, which follows the
+ * samples of one pixel after the other, so that a pixel's sums have one owner; pixels without a slot wait in
+ * the launch's list of work.
  *
  * One round takes every path one edge further (path/wave_stages.h):
  *   wave_end      miss; the next wavelength; or add, and the slot's next sample
  *   wave_start    start
  *   wave_edge     what the edge meets
- *   wave_vertex   surface, emission, connect, scatter, survive
- *   wave_shadow   the light that wave_vertex has chosen, if it is seen
+ *   wave_vertex   surface, emission, fork, gather and connect (wave_meet); scatter and survive (wave_go)
+ *   wave_shadow   the light that the vertex has chosen, if it is seen
+ * Where the stages are loops over the slots of a work-item's own pool, one launch does it all (path/wave.cl);
+ * where they are launches, every work-item has a slot (path/wave_stages.cl).
  * Between stages a path lies in planes of 32-bit words, one for each member: slot i has word i. */
 #ifndef TRIAD_PATH_WAVE_H
 #define TRIAD_PATH_WAVE_H
@@ -23,38 +26,56 @@
 #define WAVE_MISS 4u  /* it has met none */
 #define WAVE_END 5u   /* the path has ended */
 #define WAVE_IDLE 6u  /* there are no more pixels */
+#define WAVE_GO 7u    /* it is to go on from the surface it has met */
 /* Added where a light waits for its shadow ray. */
 #define WAVE_LIGHT 8u
 /* Added to WAVE_END after the longest path that is allowed. */
 #define WAVE_LONGEST 16u
 
+/* Parts of a path: stages store those that they change. */
+#define PART_NAME 1u     /* sampler */
+#define PART_EDGE 2u     /* ray, edge, traits, pdf, body_scale */
+#define PART_LOAD 4u     /* throughput, bodies */
+#define PART_FROM 8u     /* from */
+#define PART_COLOURS 16u /* colours */
+#define PART_FOUND 32u   /* radiance, alpha */
+#define PART_FORK 64u    /* fork */
+#define PART_ALL 127u
+
 /* Words of a slot on their way between planes and a path's members, in the order of the calls. */
 typedef struct Planes {
     global uint* words;
     size_t next; /* word */
+    uint parts;  /* that are moved */
+    int moves;   /* the present one is */
     int stores;  /* from members to planes, or back */
 } Planes;
 
-TRIAD_FUNCTION_PER_CALL Planes planes_load(global const uint* words, size_t i) {
-    const Planes p = {(global uint*)words, i, 0};
+TRIAD_FUNCTION_PER_CALL Planes planes_load(global const uint* words, size_t i, uint parts) {
+    const Planes p = {(global uint*)words, i, parts, 1, 0};
     return p;
 }
-TRIAD_FUNCTION_PER_CALL Planes planes_store(global uint* words, size_t i) {
-    const Planes p = {words, i, 1};
+TRIAD_FUNCTION_PER_CALL Planes planes_store(global uint* words, size_t i, uint parts) {
+    const Planes p = {words, i, parts, 1, 1};
     return p;
 }
+TRIAD_FUNCTION_PER_CALL void planes_part(Planes* p, uint part) { p->moves = (p->parts & part) != 0u; }
 TRIAD_FUNCTION_PER_CALL void planes_uint(Planes* p, uint* member) {
-    if (p->stores)
-        p->words[p->next] = *member;
-    else
-        *member = p->words[p->next];
+    if (p->moves) {
+        if (p->stores)
+            p->words[p->next] = *member;
+        else
+            *member = p->words[p->next];
+    }
     p->next += POOL_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_float(Planes* p, float* member) {
-    if (p->stores)
-        p->words[p->next] = as_uint(*member);
-    else
-        *member = as_float(p->words[p->next]);
+    if (p->moves) {
+        if (p->stores)
+            p->words[p->next] = as_uint(*member);
+        else
+            *member = as_float(p->words[p->next]);
+    }
     p->next += POOL_PLANE;
 }
 TRIAD_FUNCTION_PER_CALL void planes_vec3(Planes* p, Vec3* v) {
@@ -96,28 +117,34 @@ TRIAD_FUNCTION_PER_CALL void planes_path_colour(Planes* p, PathColour* c) {
 #endif
 }
 
-/* What the path has found comes first: trace_shadows writes no more. */
-TRIAD_FUNCTION_PER_CALL void planes_found(Planes* p, PathState* path) { planes_colour(p, &path->radiance); }
-
 /* Every member of PathState. */
 TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
-    planes_found(p, path);
-    planes_ray(p, &path->ray);
-    planes_uint(p, &path->edge);
+    planes_part(p, PART_NAME);
     planes_uint(p, &path->sampler.index_reversed);
     planes_uint(p, &path->sampler.key0), planes_uint(p, &path->sampler.key1);
     planes_uint(p, &path->sampler.first_block);
+    planes_part(p, PART_EDGE);
+    planes_ray(p, &path->ray);
+    planes_uint(p, &path->edge);
     planes_uint(p, &path->traits);
     planes_float(p, &path->pdf);
-    planes_colour(p, &path->throughput);
 #if TRIAD_TRANSMISSION
     planes_float(p, &path->body_scale);
+#endif
+    planes_part(p, PART_LOAD);
+    planes_colour(p, &path->throughput);
+#if TRIAD_TRANSMISSION
     planes_bodies(p, &path->bodies);
+    planes_part(p, PART_FROM);
     planes_vec3(p, &path->from);
 #endif
-    planes_float(p, &path->alpha);
+    planes_part(p, PART_COLOURS);
     planes_path_colour(p, &path->colours);
+    planes_part(p, PART_FOUND);
+    planes_colour(p, &path->radiance);
+    planes_float(p, &path->alpha);
 #if PATH_FORKS
+    planes_part(p, PART_FORK);
     PathFork* fork = &path->fork;
     planes_uint(p, &fork->branch), planes_uint(p, &fork->edge);
     planes_hit(p, &fork->hit);

@@ -19,16 +19,30 @@ typedef struct Pool {
     global uint* pending; /* PendingLight */
 } Pool;
 
-#define POOL_LOAD(kind, planes, member)              \
-    do {                                             \
-        Planes pool_planes = planes_load(planes, i); \
-        planes_##kind(&pool_planes, member);         \
+TRIAD_FUNCTION_PER_CALL Pool pool_at(size_t pool, global uint* states, global uint* pixels,
+                                     global uint* taken, global uint* paths, global uint* hits,
+                                     global uint* pending) {
+    const size_t first = pool * POOL_PLANE;
+    const Pool p = {states + first,
+                    pixels + first,
+                    taken + first,
+                    paths + first * POOL_PATH_PLANES,
+                    hits + first * POOL_HIT_PLANES,
+                    pending + first * POOL_LIGHT_PLANES};
+    return p;
+}
+
+#define POOL_LOAD(kind, planes, member)                        \
+    do {                                                       \
+        Planes pool_planes = planes_load(planes, i, PART_ALL); \
+        planes_##kind(&pool_planes, member);                   \
     } while (0)
-#define POOL_STORE(kind, planes, member)              \
-    do {                                              \
-        Planes pool_planes = planes_store(planes, i); \
-        planes_##kind(&pool_planes, member);          \
+#define POOL_STORE_PARTS(kind, planes, member, parts)        \
+    do {                                                     \
+        Planes pool_planes = planes_store(planes, i, parts); \
+        planes_##kind(&pool_planes, member);                 \
     } while (0)
+#define POOL_STORE(kind, planes, member) POOL_STORE_PARTS(kind, planes, member, PART_ALL)
 
 /* The list of work of a launch. */
 typedef struct WaveWork {
@@ -79,6 +93,45 @@ TRIAD_FUNCTION_PER_CALL void wave_edge(const Scene* scene, const Pool* pool, siz
     }
 }
 
+/* Parts of a path that change at a vertex: while the path finds things there, and when it goes on. */
+#define PARTS_MEET (PART_LOAD | PART_FROM | PART_COLOURS | PART_FOUND | PART_FORK)
+#define PARTS_SCATTER (PART_EDGE | PART_LOAD | (PATH_EACH ? PART_COLOURS : 0u))
+
+/* The path is at the end of its edge: whether it ends there, WAVE_END, or is to go on, WAVE_GO. */
+TRIAD_FUNCTION_PER_CALL uint vertex_meet(const Scene* scene, PathState* path, const Vertex* vertex,
+                                         Tally* tally) {
+    uint state = WAVE_END;
+    if (!path_unlit(scene, path, vertex, tally)) {
+        path_emission(scene, path, vertex, tally);
+        if (path_is_longest(scene, path)) {
+            state = WAVE_END | WAVE_LONGEST;
+        } else {
+            path_fork(scene, path, vertex);
+            state = WAVE_GO;
+        }
+    }
+    return state;
+}
+
+/* WAVE_LIGHT: the slot has a light to be seen. */
+TRIAD_FUNCTION_PER_CALL uint vertex_connect(const Scene* scene, const Pool* pool, size_t i,
+                                            const PathState* path, const Vertex* vertex,
+                                            const VertexBsdf* bsdf, const SamplerBlock* u) {
+    PendingLight light;
+    if (!path_connect(scene, path, vertex, bsdf, u, &light)) return 0u;
+    POOL_STORE(light, pool->pending, &light);
+    return WAVE_LIGHT;
+}
+
+TRIAD_FUNCTION_PER_CALL uint vertex_scatter(const Scene* scene, PathState* path, const Vertex* vertex,
+                                            const VertexBsdf* bsdf, const SamplerBlock* u, Tally* tally) {
+    Scatter scatter;
+    return path_scatter(scene, path, vertex, bsdf, u, &scatter, tally) &&
+                   path_survive(scene, path, vertex, &scatter, u, tally)
+               ? WAVE_EDGE
+               : WAVE_END;
+}
+
 /* What paths find and do at the ends of their edges. */
 TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, size_t i, Tally* tally) {
     if (pool->states[i] == WAVE_HIT) {
@@ -86,30 +139,63 @@ TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, s
         Hit hit;
         POOL_LOAD(path, pool->paths, &path);
         POOL_LOAD(hit, pool->hits, &hit);
-        uint state = WAVE_END;
         const SamplerBlock u = path_numbers(&path);
         Vertex vertex = path_surface(scene, &path, &hit, tally);
-        if (!path_unlit(scene, &path, &vertex, tally)) {
-            path_emission(scene, &path, &vertex, tally);
-            if (path_is_longest(scene, &path)) {
-                state |= WAVE_LONGEST;
-            } else {
-                path_fork(scene, &path, &vertex);
-                const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
-                path_gather(scene, &path, &vertex, &bsdf);
-                PendingLight light;
-                if (path_connect(scene, &path, &vertex, &bsdf, &u, &light)) {
-                    POOL_STORE(light, pool->pending, &light);
-                    state |= WAVE_LIGHT;
-                }
-                Scatter scatter;
-                if (path_scatter(scene, &path, &vertex, &bsdf, &u, &scatter, tally) &&
-                    path_survive(scene, &path, &vertex, &scatter, &u, tally))
-                    state = (state & WAVE_LIGHT) | WAVE_EDGE;
-            }
+        uint state = vertex_meet(scene, &path, &vertex, tally);
+        if (state == WAVE_GO) {
+            const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
+            path_gather(scene, &path, &vertex, &bsdf);
+            state = vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u);
+            state |= vertex_scatter(scene, &path, &vertex, &bsdf, &u, tally);
         }
-        POOL_STORE(path, pool->paths, &path);
+        POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET | PARTS_SCATTER);
         pool->states[i] = state;
+    }
+}
+
+/* The same in four stages. Each looks at the surface again: that takes less than to keep it. */
+TRIAD_FUNCTION_PER_CALL void wave_meet(const Scene* scene, const Pool* pool, size_t i, Tally* tally) {
+    if (pool->states[i] == WAVE_HIT) {
+        PathState path;
+        Hit hit;
+        POOL_LOAD(path, pool->paths, &path);
+        POOL_LOAD(hit, pool->hits, &hit);
+        const Vertex vertex = path_surface(scene, &path, &hit, tally);
+        pool->states[i] = vertex_meet(scene, &path, &vertex, tally);
+        POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET);
+    }
+}
+
+#define WAVE_AT_VERTEX                             \
+    PathState path;                                \
+    Hit hit;                                       \
+    POOL_LOAD(path, pool->paths, &path);           \
+    POOL_LOAD(hit, pool->hits, &hit);              \
+    const SamplerBlock u = path_numbers(&path);    \
+    Vertex vertex = path_look(scene, &path, &hit); \
+    const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
+
+TRIAD_FUNCTION_PER_CALL void wave_gather(const Scene* scene, const Pool* pool, size_t i) {
+    if (pool->states[i] == WAVE_GO) {
+        WAVE_AT_VERTEX(void) u;
+        path_gather(scene, &path, &vertex, &bsdf);
+        POOL_STORE_PARTS(path, pool->paths, &path, PART_FOUND);
+    }
+}
+
+TRIAD_FUNCTION_PER_CALL void wave_connect(const Scene* scene, const Pool* pool, size_t i) {
+    if (pool->states[i] == WAVE_GO) {
+        WAVE_AT_VERTEX
+        pool->states[i] = WAVE_GO | vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u);
+    }
+}
+
+TRIAD_FUNCTION_PER_CALL void wave_scatter(const Scene* scene, const Pool* pool, size_t i, Tally* tally) {
+    const uint state = pool->states[i];
+    if ((state & ~WAVE_LIGHT) == WAVE_GO) {
+        WAVE_AT_VERTEX
+        pool->states[i] = (state & WAVE_LIGHT) | vertex_scatter(scene, &path, &vertex, &bsdf, &u, tally);
+        POOL_STORE_PARTS(path, pool->paths, &path, PARTS_SCATTER);
     }
 }
 
@@ -123,7 +209,7 @@ TRIAD_FUNCTION_PER_CALL void wave_shadow(const Scene* scene, const Pool* pool, s
             PathState path;
             POOL_LOAD(path, pool->paths, &path);
             path_arrive(scene, &path, &light, tally);
-            POOL_STORE(found, pool->paths, &path);
+            POOL_STORE_PARTS(path, pool->paths, &path, PART_FOUND);
         }
     }
 }

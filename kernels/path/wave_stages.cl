@@ -1,0 +1,72 @@
+/* The driver `wave` where every stage of a round is a launch, and a work-item has a slot (path/wave.h): for
+ * GPUs, which hide the memory that paths wait in, and where the registers of a kernel decide how many paths
+ * are under way. */
+#ifndef TRIAD_INLINED
+#define TRIAD_INLINED 1 /* structs that functions hand to each other stay in registers */
+#endif
+
+#include "common/language.h"
+
+#include "path/wave_stages.h"
+
+#define WAVE_STAGE_PARAMETERS SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)
+#define WAVE_STAGE                                                                        \
+    const size_t i = get_global_id(0) % POOL_SLOTS, item = get_global_id(0) / POOL_SLOTS; \
+    if (item >= pool_count) return;                                                       \
+    const Scene scene = SCENE_FROM_PARAMETERS;                                            \
+    const Pool pool = pool_at(item, states, pixels, taken, paths, hits, pending);         \
+    Tally tally = tally_start();
+#define WAVE_WORK                                                                          \
+    const Frame local_frame = *frame;                                                      \
+    const WaveWork list = {&local_frame, work + first_work, work_count * FILM_TILE_PIXELS, \
+                           ((ulong)first_sample_high << 32) | first_sample_low};
+
+/* Adds samples to the film that the work names. next_pixel[1]: slots that have nothing to do any more. */
+kernel void wave_end_paths(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    WAVE_WORK
+    const WaveFilm film = {sums, half_sums, samples, first_pixel};
+    if (pool.states[i] != WAVE_IDLE && wave_end(&scene, &list, &film, &pool, i, next_pixel, &tally))
+        atomic_inc(next_pixel + 1);
+    tally_add(counters, &tally);
+}
+
+kernel void wave_start_paths(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    WAVE_WORK
+    wave_start(&scene, &list, &pool, i);
+}
+
+kernel void wave_intersect_edges(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_edge(&scene, &pool, i, &tally);
+    tally_add(counters, &tally);
+}
+
+kernel void wave_meet_surfaces(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_meet(&scene, &pool, i, &tally);
+    tally_add(counters, &tally);
+}
+
+kernel void wave_gather_photons(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_gather(&scene, &pool, i);
+}
+
+kernel void wave_connect_paths(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_connect(&scene, &pool, i);
+}
+
+kernel void wave_scatter_paths(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_scatter(&scene, &pool, i, &tally);
+    tally_add(counters, &tally);
+}
+
+kernel void wave_intersect_lights(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_shadow(&scene, &pool, i, &tally);
+    tally_add(counters, &tally);
+}
