@@ -36,11 +36,15 @@ void print(const CheckResult& r) {
 Exit run(const CheckOptions& o) {
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    if (o.level == CheckLevel::tiny)
+    if (o.level == CheckLevel::tiny) {  // measures nothing: for simulators
         set_format(device, o.format.value_or(default_format(device.info())));
-    else
-        ensure_tuned(device, o.format ? Tuning{{"format", name_of(*o.format)}} : Tuning{});
-    if (o.path_driver) set_path_driver(device, *o.path_driver);
+        set_path_driver(device, o.path_driver.value_or(PathDriverKind::mega));
+    } else {
+        Tuning wishes;
+        if (o.format) wishes["format"] = name_of(*o.format);
+        if (o.path_driver) wishes["path_driver"] = name_of(*o.path_driver);
+        ensure_tuned(device, wishes);
+    }
     const BvhFormat format = format_of(device);
     const PathDriverKind path_driver = path_driver_of(device);
     const bool lines = o.json != "-";

@@ -51,7 +51,8 @@ CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& d
         .add_option_function<std::string>("--driver", parse,
                                           "How paths are followed: mega (each to its end), wave (many side "
                                           "by side, stage by stage) or auto "
-                                          "(what suits the device: mega). Pictures are the same bit for bit")
+                                          "(what triad tune found faster on the device; mega where it was "
+                                          "not run). Pictures are the same bit for bit")
         ->type_name("NAME");
 }
 

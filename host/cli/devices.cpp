@@ -9,6 +9,7 @@
 #include "device/device.h"
 #include "report/report.h"
 #include "trace/node_format.h"
+#include "trace/path_driver.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -20,12 +21,23 @@ Tuning tuned(const DeviceInfo& device) {
     return timings ? best_of(*timings) : Tuning{};
 }
 
-/// Of the nodes that the device would walk.
+/// Of the nodes that the device would walk, and the driver that it would follow paths by.
 std::optional<Verdict> verdict_on(const DeviceInfo& device) {
     const Tuning tuning = tuned(device);
-    const auto format = tuning.find("format");
+    const auto format = tuning.find("format"), driver = tuning.find("path_driver");
     return load_verdict(device,
-                        format == tuning.end() ? default_format(device) : *find_bvh_format(format->second));
+                        format == tuning.end() ? default_format(device) : *find_bvh_format(format->second),
+                        driver == tuning.end() ? PathDriverKind::mega : *find_path_driver(driver->second));
+}
+
+/// The axes that were not measured, which have their preferred values.
+std::string not_tuned(const DeviceInfo& device) {
+    const Tuning tuning = tuned(device);
+    std::string names;
+    for (const TuneSearch& search : tune_searches())
+        for (const TuneAxis& axis : search.axes)
+            if (!tuning.contains(axis.name)) names += (names.empty() ? "" : ", ") + std::string(axis.name);
+    return names;
 }
 
 void print(const DeviceList& list) {
@@ -44,9 +56,9 @@ void print(const DeviceList& list) {
             std::printf("           %s\n", !verdict                 ? "not checked yet (triad check)"
                                            : verdict->wrong.empty() ? "checked: right"
                                                                     : "checked: WRONG (triad check)");
-            const std::string best = text_of(tuned(d));
-            std::printf("           %s\n",
-                        best.empty() ? "not tuned yet (triad tune)" : ("tuned: " + best).c_str());
+            const std::string best = text_of(tuned(d)), rest = not_tuned(d);
+            if (!best.empty()) std::printf("           tuned: %s\n", best.c_str());
+            if (!rest.empty()) std::printf("           not tuned yet (triad tune): %s\n", rest.c_str());
         }
         if (!d.usable) std::printf("           UNUSABLE: %s\n", d.why_unusable.c_str());
     }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "cli/output_options.h"
@@ -24,19 +25,30 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::s
     return command.add_option_function<std::string>(name, std::move(assign), help)->type_name(form);
 }
 
-Spectral parse_spectral(const std::string& text) {
-    if (text == "auto") return Spectral::automatic;
-    if (text == "off") return Spectral::off;
-    if (text == "full") return Spectral::full;
-    if (text == "classic") return Spectral::classic;
-    throw Error(Exit::usage, "--spectral " + text + ": auto, off, full or classic.");
+/// One of some words, in the order of the sentence that lists them.
+template <class T, class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& form,
+                        const std::string& help, const std::vector<std::pair<std::string, T>>& choices,
+                        Value& value) {
+    return add_parsed(command, name, form, help, [&value, name, choices](const std::string& text) {
+        std::string words;
+        for (std::size_t i = 0; i < choices.size(); ++i) {
+            if (choices[i].first == text) {
+                value = choices[i].second;
+                return;
+            }
+            words += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i].first;
+        }
+        throw Error(Exit::usage, name + " " + text + ": " + words + ".");
+    });
 }
 
-}  // namespace
+template <class Bool>
+CLI::Option* add_switch(CLI::App& command, const std::string& name, const std::string& help, Bool& value) {
+    return add_choice<bool>(command, name, "on|off", help, {{"on", true}, {"off", false}}, value);
+}
 
-void declare(CLI::App& command, RenderRequest& o) {
-    command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
-        ->type_name("");
+void declare_goals(CLI::App& command, RenderRequest& o) {
     command
         .add_option("--spp", o.spp,
                     "Samples per pixel (default 64; with --error or --time no limit). Of --spp, --error and "
@@ -51,12 +63,12 @@ void declare(CLI::App& command, RenderRequest& o) {
                     "Stop after so many seconds of rendering (loading and compiling not counted)")
         ->check(number_within(1e-6, 1e9))
         ->type_name("S");
-    add_parsed(command, "--adaptive", "on|off",
+    add_switch(command, "--adaptive",
                "Send samples where they lower the error most (default on with --error or --time)",
-               [&o](const std::string& v) {
-                   if (v != "on" && v != "off") throw Error(Exit::usage, "--adaptive " + v + ": on or off.");
-                   o.adaptive = v == "on";
-               });
+               o.adaptive);
+}
+
+void declare_paths(CLI::App& command, RenderRequest& o) {
     command.add_option("--seed", o.seed, "Of the random numbers (default 0)")->type_name("N");
     command
         .add_option("--max-depth", o.max_depth,
@@ -69,23 +81,20 @@ void declare(CLI::App& command, RenderRequest& o) {
             "time; 1: most samples)")
         ->check(number_within(0.01, 10))
         ->type_name("T");
-    add_parsed(
+    add_choice<Integrator>(
         command, "--integrator", "NAME",
         "auto (the default: photons where something casts the light of a small source onto other "
         "surfaces), path (paths alone), photons (from every light), light (photons that the camera sees "
         "directly, paths for all else) or photon-map (the classic method)",
-        [&o](const std::string& v) {
-            static const std::map<std::string, Integrator> integrators = {
-                {"auto", Integrator::automatic},
-                {"path", Integrator::path},
-                {"photons", Integrator::photons},
-                {"light", Integrator::light},
-                {"photon-map", Integrator::photon_map}};
-            const auto found = integrators.find(v);
-            if (found == integrators.end())
-                throw Error(Exit::usage, "--integrator " + v + ": auto, path, photons, light or photon-map.");
-            o.integrator = found->second;
-        });
+        {{"auto", Integrator::automatic},
+         {"path", Integrator::path},
+         {"photons", Integrator::photons},
+         {"light", Integrator::light},
+         {"photon-map", Integrator::photon_map}},
+        o.integrator);
+}
+
+void declare_photons(CLI::App& command, RenderRequest& o) {
     command
         .add_option(
             "--photons", o.photons,
@@ -100,30 +109,22 @@ void declare(CLI::App& command, RenderRequest& o) {
             "or of photon-map (default: chosen by the scene)")
         ->check(number_within(1e-12, 1e12))
         ->type_name("R");
-    add_parsed(command, "--photon-aim", "on|off",
-               "Aim photons at what mirrors and refracts (default on; off: to compare)",
-               [&o](const std::string& v) {
-                   if (v != "on" && v != "off")
-                       throw Error(Exit::usage, "--photon-aim " + v + ": on or off.");
-                   o.aim_photons = v == "on";
-               });
-    add_parsed(command, "--final-gather", "on|off",
-               "With photon-map: bounce once before the map is looked up (default on)",
-               [&o](const std::string& v) {
-                   if (v != "on" && v != "off")
-                       throw Error(Exit::usage, "--final-gather " + v + ": on or off.");
-                   o.final_gather = v == "on";
-               });
-    add_parsed(command, "--sampler", "NAME",
-               "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
-               [&o](const std::string& v) {
-                   if (v != "sobol" && v != "independent")
-                       throw Error(Exit::usage, "--sampler " + v + ": sobol or independent.");
-                   o.independent = v == "independent";
-               });
+    add_switch(command, "--photon-aim",
+               "Aim photons at what mirrors and refracts (default on; off: to compare)", o.aim_photons);
+    add_switch(command, "--final-gather",
+               "With photon-map: bounce once before the map is looked up (default on)", o.final_gather);
+}
+
+void declare_sampler(CLI::App& command, RenderRequest& o) {
+    add_choice<bool>(
+        command, "--sampler", "NAME",
+        "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
+        {{"sobol", false}, {"independent", true}}, o.independent);
     add_parsed(command, "--samples", "A:B", "Only this half-open range of sample indices, for triad merge",
                [&o](const std::string& v) { o.samples = parse_range("--samples", v); });
+}
 
+void declare_picture(CLI::App& command, RenderRequest& o) {
     add_parsed(command, "--size", "WxH", "Of the picture (default 1280x720, or the aspect of the camera)",
                [&o](const std::string& v) { o.size = parse_size("--size", v); })
         ->group(view_group);
@@ -147,6 +148,9 @@ void declare(CLI::App& command, RenderRequest& o) {
             o.pixel = {unsigned(n[0]), unsigned(n[1])};
         })
         ->group(view_group);
+}
+
+void declare_camera(CLI::App& command, RenderRequest& o) {
     command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N")
@@ -182,13 +186,19 @@ void declare(CLI::App& command, RenderRequest& o) {
         ->check(number_within(1 / limits::squared, limits::squared))
         ->type_name("D")
         ->group(view_group);
+}
 
-    add_parsed(
+void declare_light(CLI::App& command, RenderRequest& o) {
+    add_choice<Spectral>(
         command, "--spectral", "auto|off|full|classic",
         "auto (the default): a path has three wavelengths from the first body on that disperses; off: RGB; "
         "full: four wavelengths per path; "
         "classic: one wavelength from the camera on",
-        [&o](const std::string& v) { o.spectral = parse_spectral(v); })
+        {{"auto", Spectral::automatic},
+         {"off", Spectral::off},
+         {"full", Spectral::full},
+         {"classic", Spectral::classic}},
+        o.spectral)
         ->group(light_group);
     command
         .add_option("--glass", o.glass,
@@ -216,7 +226,9 @@ void declare(CLI::App& command, RenderRequest& o) {
                    if (v != "env" && v != "transparent") o.style.background = parse_colour("--background", v);
                })
         ->group(light_group);
+}
 
+void declare_output(CLI::App& command, RenderRequest& o) {
     command
         .add_option("-o,--output", o.outputs,
                     "Picture: .exr, .hdr (linear), .png, .jpg (tone-mapped), - (PNG on standard output); "
@@ -245,7 +257,9 @@ void declare(CLI::App& command, RenderRequest& o) {
         ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
         ->type_name("STYLE")
         ->group(output_group);
+}
 
+void declare_machine(CLI::App& command, RenderRequest& o) {
     command.add_option("--device", o.device, "Number, cpu, gpu, or part of a name (see triad devices)")
         ->type_name("SEL")
         ->group(machine_group);
@@ -261,6 +275,22 @@ void declare(CLI::App& command, RenderRequest& o) {
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR")
         ->group(machine_group);
+}
+
+}  // namespace
+
+void declare(CLI::App& command, RenderRequest& o) {
+    command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
+        ->type_name("");
+    declare_goals(command, o);
+    declare_paths(command, o);
+    declare_photons(command, o);
+    declare_sampler(command, o);
+    declare_picture(command, o);
+    declare_camera(command, o);
+    declare_light(command, o);
+    declare_output(command, o);
+    declare_machine(command, o);
 }
 
 }  // namespace triad

@@ -47,7 +47,8 @@ Exit run(const TuneOptions& o) {
 void add_tune(CLI::App& app, Exit& exit) {
     auto o = std::make_shared<TuneOptions>();
     CLI::App* command = app.add_subcommand(
-        "tune", "Measure which nodes and work-group size suit a device, and keep it for later runs");
+        "tune",
+        "Measure which nodes, work-group size and driver of paths suit a device, and keep it for later runs");
     command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
     command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
     command->add_option("--json", o->json, "Write the timings as JSON (-: standard output)");

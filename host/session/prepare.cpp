@@ -104,11 +104,10 @@ Device open_device(const RenderRequest& o) {
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     Tuning wishes;
     if (o.format) wishes["format"] = name_of(*o.format);
+    if (o.path_driver) wishes["path_driver"] = name_of(*o.path_driver);
     const Tuning tuning = ensure_tuned(device, wishes);
-    if (o.path_driver) set_path_driver(device, *o.path_driver);
     require_right(ensure_checked(device), device.info(), o.force);
-    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning) +
-           ", paths by " + name_of(path_driver_of(device)));
+    detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning));
     return device;
 }
 

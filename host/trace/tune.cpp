@@ -1,9 +1,13 @@
 #include "trace/tune.h"
 
 #include <algorithm>
+#include <exception>
+#include <functional>
 
 #include "base/log.h"
 #include "trace/node_format.h"
+#include "trace/path_driver.h"
+#include "trace/tune_paths.h"
 #include "trace/tune_rays.h"
 
 namespace triad {
@@ -27,27 +31,50 @@ std::vector<std::string> locals_for(const Device& device) {
     return sizes;
 }
 
-void set_all(Device& device, const Tuning& tuning) {
+/// Mega first: it needs no pools.
+std::vector<std::string> path_drivers_for(const Device&) {
+    return {name_of(PathDriverKind::mega), name_of(PathDriverKind::wave)};
+}
+
+/// What is best by the timings; of axes without any, what is wished for if there is such a value, or the
+/// preferred one.
+Tuning set_best(Device& device, const std::vector<TuneTiming>& timings, const Tuning& wishes = {}) {
+    Tuning best = best_of(timings, wishes);
     for (const TuneSearch& search : tune_searches())
-        for (const TuneAxis& axis : search.axes)
-            if (const auto found = tuning.find(axis.name); found != tuning.end())
-                axis.set(device, found->second);
+        for (const TuneAxis& axis : search.axes) {
+            if (!best.contains(axis.name)) {
+                const std::vector<std::string> values = axis.values(device);
+                const auto wish = wishes.find(axis.name);
+                const bool granted =
+                    wish != wishes.end() && std::count(values.begin(), values.end(), wish->second) > 0;
+                best[axis.name] = granted ? wish->second : values.front();
+            }
+            axis.set(device, best.at(axis.name));
+        }
+    return best;
+}
+
+std::vector<TuneTiming> run_searches(Device& device, const std::function<bool(const TuneSearch&)>& wanted) {
+    std::vector<TuneTiming> timings;
+    for (const TuneSearch& search : tune_searches()) {
+        if (!wanted(search)) continue;
+        set_best(device, timings);
+        const std::vector<TuneTiming> more = time_search(device, search);
+        timings.insert(timings.end(), more.begin(), more.end());
+    }
+    keep_timings(device.info(), timings);
+    return timings;
 }
 
 /// Every combination of values from axis `next` on, the preferred ones first.
-void time_all(Device& device, const TuneSearch& search, Workload& workload, std::size_t next, Tuning& values,
-              std::vector<TuneTiming>& timings) {
-    if (next == search.axes.size()) {
-        timings.push_back({search.name, values, workload.seconds()});
-        detail("tuning " + std::string(search.name) + ": " + text_of(values) + ": " +
-               std::to_string(1e3 * timings.back().seconds) + " ms");
-        return;
-    }
+void time_all(Device& device, const TuneSearch& search, std::size_t next, Tuning& values,
+              const std::function<void()>& time) {
+    if (next == search.axes.size()) return time();
     const TuneAxis& axis = search.axes[next];
     for (const std::string& value : axis.values(device)) {
         axis.set(device, value);
         values[axis.name] = value;
-        time_all(device, search, workload, next + 1, values, timings);
+        time_all(device, search, next + 1, values, time);
     }
 }
 
@@ -63,23 +90,45 @@ bool grants(const Tuning& values, const Tuning& wishes) {
 const std::vector<TuneSearch>& tune_searches() {
     static const std::vector<TuneSearch> searches{
         {"rays",
+         TuneWhen::first_use,
          {{"format", formats_for,
            [](Device& device, const std::string& name) { set_format(device, *find_bvh_format(name)); }},
           {"local", locals_for,
            [](Device& device, const std::string& size) { device.set_preferred_local(std::stoul(size)); }}},
-         make_ray_workload}};
+         make_ray_workload},
+        {"paths",
+         TuneWhen::asked,
+         {{"path_driver", path_drivers_for,
+           [](Device& device, const std::string& name) {
+               set_path_driver(device, *find_path_driver(name));
+           }}},
+         make_path_workload}};
     return searches;
 }
 
-std::vector<TuneTiming> tune(Device& device) {
+std::vector<TuneTiming> time_search(Device& device, const TuneSearch& search) {
+    for (const TuneAxis& axis : search.axes) axis.set(device, axis.values(device).front());
+    const auto workload = search.make(device);
     std::vector<TuneTiming> timings;
-    for (const TuneSearch& search : tune_searches()) {
-        const auto workload = search.make(device);
-        Tuning values;
-        time_all(device, search, *workload, 0, values, timings);
-    }
-    keep_timings(device.info(), timings);
-    set_all(device, best_of(timings));
+    std::exception_ptr refused;
+    Tuning values;
+    time_all(device, search, 0, values, [&] {
+        const std::string words = "tuning " + std::string(search.name) + ": " + text_of(values) + ": ";
+        try {
+            timings.push_back({search.name, values, workload->seconds()});
+            detail(words + std::to_string(1e3 * timings.back().seconds) + " ms");
+        } catch (const DeviceError& error) {
+            refused = std::current_exception();
+            warn(words + "not measured, and not used. " + error.what());
+        }
+    });
+    if (timings.empty() && refused) std::rethrow_exception(refused);
+    return timings;
+}
+
+std::vector<TuneTiming> tune(Device& device) {
+    const auto timings = run_searches(device, [](const TuneSearch&) { return true; });
+    set_best(device, timings);
     return timings;
 }
 
@@ -101,12 +150,14 @@ Tuning best_of(const std::vector<TuneTiming>& timings, const Tuning& wishes) {
 }
 
 Tuning ensure_tuned(Device& device, const Tuning& wishes) {
-    const auto kept = load_timings(device.info());
-    const Tuning best = best_of(kept ? *kept : tune(device), wishes);
+    auto timings = load_timings(device.info());
+    if (!timings)
+        timings =
+            run_searches(device, [](const TuneSearch& search) { return search.when == TuneWhen::first_use; });
+    const Tuning best = set_best(device, *timings, wishes);
     for (const auto& [name, value] : wishes)
         if (const auto found = best.find(name); found == best.end() || found->second != value)
             throw Error(Exit::usage, name + " " + value + ": the device cannot be set so.");
-    set_all(device, best);
     return best;
 }
 

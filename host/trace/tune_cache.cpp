@@ -1,5 +1,6 @@
 /// What tune() keeps: one file per device, driver and kernels, so that two processes never edit the same
 /// file.
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -14,19 +15,24 @@ namespace {
 
 constexpr const char* schema = "triad.tuned/2";
 
-/// Whether the timings are of today's searches and axes.
-bool is_whole(const std::vector<TuneTiming>& timings) {
-    for (const TuneSearch& search : tune_searches()) {
-        bool any = false;
-        for (const TuneTiming& timing : timings) {
-            if (timing.search != search.name) continue;
-            any = true;
-            for (const TuneAxis& axis : search.axes)
-                if (!timing.values.contains(axis.name)) return false;
-        }
-        if (!any) return false;
-    }
-    return true;
+/// Those of searches that are still there and have values of all their axes of today.
+std::vector<TuneTiming> still_known(const std::vector<TuneTiming>& timings) {
+    std::vector<TuneTiming> known;
+    for (const TuneSearch& search : tune_searches())
+        for (const TuneTiming& timing : timings)
+            if (timing.search == search.name &&
+                std::all_of(search.axes.begin(), search.axes.end(),
+                            [&](const TuneAxis& axis) { return timing.values.contains(axis.name); }))
+                known.push_back(timing);
+    return known;
+}
+
+bool has_first_use(const std::vector<TuneTiming>& timings) {
+    return std::all_of(tune_searches().begin(), tune_searches().end(), [&](const TuneSearch& search) {
+        return search.when != TuneWhen::first_use ||
+               std::any_of(timings.begin(), timings.end(),
+                           [&](const TuneTiming& timing) { return timing.search == search.name; });
+    });
 }
 
 }  // namespace
@@ -41,7 +47,8 @@ std::optional<std::vector<TuneTiming>> load_timings(const DeviceInfo& device) {
         std::vector<TuneTiming> timings;
         for (const auto& row : json.at("timings"))
             timings.push_back({row.at("search"), row.at("values"), row.at("seconds")});
-        if (is_whole(timings)) return timings;
+        timings = still_known(timings);
+        if (has_first_use(timings)) return timings;
     } catch (const nlohmann::json::exception&) {  // damaged: measured again
     }
     return {};
