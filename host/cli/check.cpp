@@ -38,7 +38,7 @@ Exit run(const CheckOptions& o) {
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     if (o.level == CheckLevel::tiny) {  // measures nothing: for simulators
         set_format(device, o.format.value_or(default_format(device.info())));
-        set_path_driver(device, o.path_driver.value_or(PathDriverKind::mega));
+        set_path_driver(device, o.path_driver.value_or(default_path_driver(device.info())));
     } else {
         Tuning wishes;
         if (o.format) wishes["format"] = name_of(*o.format);

@@ -45,14 +45,15 @@ CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format) {
 CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver) {
     const auto parse = [&driver](const std::string& name) {
         driver = find_path_driver(name);
-        if (!driver && name != "auto") bad("--driver", name, "auto, mega or wave");
+        if (!driver && name != "auto") bad("--driver", name, "auto, mega, wave or wave-stages");
     };
     return command
-        .add_option_function<std::string>("--driver", parse,
-                                          "How paths are followed: mega (each to its end), wave (many side "
-                                          "by side, stage by stage) or auto "
-                                          "(what triad tune found faster on the device; mega where it was "
-                                          "not run). Pictures are the same bit for bit")
+        .add_option_function<std::string>(
+            "--driver", parse,
+            "How paths are followed: mega (each to its end), wave (pools of paths stage by stage, in one "
+            "launch: CPUs), wave-stages (a launch per stage: GPUs) or auto (what triad tune found fastest on "
+            "the device; where it was not run mega, and wave-stages on GPUs). Pictures are the same bit for "
+            "bit")
         ->type_name("NAME");
 }
 

@@ -25,9 +25,9 @@ Tuning tuned(const DeviceInfo& device) {
 std::optional<Verdict> verdict_on(const DeviceInfo& device) {
     const Tuning tuning = tuned(device);
     const auto format = tuning.find("format"), driver = tuning.find("path_driver");
-    return load_verdict(device,
-                        format == tuning.end() ? default_format(device) : *find_bvh_format(format->second),
-                        driver == tuning.end() ? PathDriverKind::mega : *find_path_driver(driver->second));
+    return load_verdict(
+        device, format == tuning.end() ? default_format(device) : *find_bvh_format(format->second),
+        driver == tuning.end() ? default_path_driver(device) : *find_path_driver(driver->second));
 }
 
 /// The axes that were not measured, which have their preferred values.

@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "trace/program.h"
+#include "trace/wave_driver.h"
 
 namespace triad {
 namespace {
 
-constexpr const char* choice = "path_driver";
+constexpr const char *driver_choice = "path_driver", *batch_choice = "batch";
 
 class Mega : public PathDriver {
   public:
@@ -27,69 +28,57 @@ class Mega : public PathDriver {
     Kernel trace_paths_;
 };
 
-/// Of the trees of lights that paths search: the kernel unrolls the search.
-std::uint32_t levels_of(const PackedScene& packed) {
-    return std::max({1u, packed.light_shape.levels, packed.environment.rows.levels});
-}
-
-class Wave : public PathDriver {
-  public:
-    Wave(const DeviceScene& scene, const RenderSettings& settings, const Features& features)
-        : device_(scene.device()) {
-        Options options = options_of(features);
-        options["TRIAD_CDF_LEVELS"] = std::to_string(levels_of(scene.packed()));
-        trace_wave_ = device_.build(program_of(settings, "wave"), options).kernel("trace_wave");
-        pools_.pool_count = std::max(1u, device_.info().compute_units);
-        pools_.states = planes(1), pools_.pixels = planes(1), pools_.taken = planes(1);
-        pools_.paths = planes(POOL_PATH_PLANES), pools_.hits = planes(POOL_HIT_PLANES);
-        pools_.pending = planes(POOL_LIGHT_PLANES);
-        pools_.next_pixel = device_.allocate_array<std::uint32_t>(1);
-    }
-
-    void trace(const Arguments& scene, const dev::TracePathsArguments& work) override {
-#define TRIAD_COPY(type, name) pools_.name = work.name;
-        TRACE_PATHS_LIST(TRIAD_COPY, TRIAD_COPY, TRIAD_COPY, TRIAD_COPY)
-#undef TRIAD_COPY
-        device_.fill_zero(pools_.next_pixel);
-        device_.run(trace_wave_, Arguments(scene).add(arguments_of(pools_)), pools_.pool_count, 1);
-    }
-    std::uint64_t bytes() const override { return bytes_; }
-
-  private:
-    Device& device_;
-    Kernel trace_wave_;
-    dev::TraceWaveArguments pools_;
-    std::uint64_t bytes_ = 0;
-
-    /// So many of every pool.
-    DeviceArray<std::uint32_t> planes(std::size_t count) {
-        const auto array = device_.allocate_array<std::uint32_t>(pools_.pool_count * count * POOL_PLANE);
-        bytes_ += array.bytes();
-        return array;
-    }
-};
-
 }  // namespace
 
-const char* name_of(PathDriverKind kind) { return kind == PathDriverKind::wave ? "wave" : "mega"; }
+const char* name_of(PathDriverKind kind) {
+    switch (kind) {
+        case PathDriverKind::mega:
+            return "mega";
+        case PathDriverKind::wave:
+            return "wave";
+        case PathDriverKind::wave_stages:
+            return "wave-stages";
+    }
+    return "";
+}
 
 std::optional<PathDriverKind> find_path_driver(const std::string& name) {
-    for (const PathDriverKind kind : {PathDriverKind::mega, PathDriverKind::wave})
+    for (const PathDriverKind kind : all_path_drivers)
         if (name == name_of(kind)) return kind;
     return std::nullopt;
 }
 
-void set_path_driver(Device& device, PathDriverKind kind) { device.choices()[choice] = name_of(kind); }
+PathDriverKind default_path_driver(const DeviceInfo& device) {
+    return device.type == "gpu" ? PathDriverKind::wave_stages : PathDriverKind::mega;
+}
+
+void set_path_driver(Device& device, PathDriverKind kind) { device.choices()[driver_choice] = name_of(kind); }
 
 PathDriverKind path_driver_of(const Device& device) {
-    const auto found = device.choices().find(choice);
+    const auto found = device.choices().find(driver_choice);
     return found == device.choices().end() ? PathDriverKind::mega : *find_path_driver(found->second);
+}
+
+void set_batch(Device& device, std::uint32_t paths) {
+    device.choices()[batch_choice] = std::to_string(paths);
+}
+
+std::uint32_t batch_of(const Device& device) {
+    const auto found = device.choices().find(batch_choice);
+    const auto chosen = found == device.choices().end() ? 0ul : std::stoul(found->second);
+    return chosen > 0 ? std::uint32_t(chosen) : 2048u * std::max(1u, device.info().compute_units);
 }
 
 std::unique_ptr<PathDriver> make_path_driver(const DeviceScene& scene, const RenderSettings& settings,
                                              const Features& features) {
-    if (path_driver_of(scene.device()) == PathDriverKind::wave)
-        return std::make_unique<Wave>(scene, settings, features);
+    switch (path_driver_of(scene.device())) {
+        case PathDriverKind::mega:
+            break;
+        case PathDriverKind::wave:
+            return make_wave(scene, settings, features);
+        case PathDriverKind::wave_stages:
+            return make_wave_stages(scene, settings, features);
+    }
     return std::make_unique<Mega>(scene, settings, features);
 }
 

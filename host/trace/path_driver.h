@@ -1,6 +1,7 @@
 #pragma once
 /// How a device follows paths: each to its end before the next, or many side by side, stage by stage. Films
 /// are the same bit for bit.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,16 +13,29 @@ namespace triad {
 
 enum class PathDriverKind {
     mega,  ///< a work-item follows the paths of a pixel, one after the other (kernels/path/mega.cl)
-    wave   ///< a work-item takes a pool of paths through one stage after the other (kernels/path/wave.cl)
+    /// of CPUs: a work-item takes a pool of paths through one stage after the other (kernels/path/wave.cl)
+    wave,
+    /// of GPUs: each stage is a launch over all paths that are under way (kernels/path/wave_stages.cl)
+    wave_stages
 };
+constexpr PathDriverKind all_path_drivers[] = {PathDriverKind::mega, PathDriverKind::wave,
+                                               PathDriverKind::wave_stages};
 
 const char* name_of(PathDriverKind kind);
 /// None: there is no driver of that name.
 std::optional<PathDriverKind> find_path_driver(const std::string& name);
 
+/// Where nothing was measured. GPUs: wave_stages, whose kernels take half the registers of mega's.
+PathDriverKind default_path_driver(const DeviceInfo& device);
+
 /// What the device follows paths by from now on; mega until this is called.
 void set_path_driver(Device& device, PathDriverKind kind);
 PathDriverKind path_driver_of(const Device& device);
+
+/// How many paths wave_stages keeps under way at most: 2048 for each compute unit until this is called. 0 is
+/// that number too.
+void set_batch(Device& device, std::uint32_t paths);
+std::uint32_t batch_of(const Device& device);
 
 class PathDriver {
   public:
@@ -30,6 +44,8 @@ class PathDriver {
     /// Enqueues the samples that a list of work names. `scene`: what kernels that shade begin with; `work`:
     /// the film and the tiles, which lie in one band.
     virtual void trace(const Arguments& scene, const dev::TracePathsArguments& work) = 0;
+    /// What trace() could not enqueue before results were there; waits for all of it but the last launch.
+    virtual void finish() {}
     virtual std::uint64_t bytes() const = 0;  ///< of its own
 };
 

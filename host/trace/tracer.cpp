@@ -26,7 +26,7 @@ Tracer::Tracer(std::shared_ptr<const DeviceScene> scene, const RenderSettings& s
     const dev::TileWork first_tile{0, {0, 0}, {1, 1}, {}};
     set_work({&first_tile, 1});
     trace(0, 1, 0);
-    device_.finish();
+    finish();
     part_.clear();
 }
 
@@ -62,6 +62,11 @@ void Tracer::trace(std::size_t first, std::size_t count, std::uint64_t first_sam
         driver_->trace(arguments_, own);
         first += n, count -= n;
     }
+}
+
+void Tracer::finish() {
+    driver_->finish();
+    device_.finish();
 }
 
 std::uint64_t Tracer::bytes() const {

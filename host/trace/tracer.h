@@ -30,7 +30,7 @@ class Tracer {
     void set_work(std::span<const dev::TileWork> work);
     /// Enqueues samples of work[first, first + count), which are counted from first_sample.
     void trace(std::size_t first, std::size_t count, std::uint64_t first_sample);
-    void finish() { device_.finish(); }
+    void finish();
 
     Device& device() const { return device_; }
     const DeviceScene& scene() const { return *scene_; }

@@ -31,9 +31,22 @@ std::vector<std::string> locals_for(const Device& device) {
     return sizes;
 }
 
-/// Mega first: it needs no pools.
-std::vector<std::string> path_drivers_for(const Device&) {
-    return {name_of(PathDriverKind::mega), name_of(PathDriverKind::wave)};
+std::vector<std::string> path_drivers_for(const Device& device) {
+    const PathDriverKind preferred = default_path_driver(device.info());
+    std::vector<std::string> names{name_of(preferred)};
+    for (const PathDriverKind kind : all_path_drivers)
+        if (kind != preferred && (kind != PathDriverKind::wave || device.info().type == "cpu"))
+            names.push_back(name_of(kind));
+    return names;
+}
+
+/// Of wave_stages alone; the others have none.
+std::vector<std::string> batches_for(const Device& device) {
+    if (path_driver_of(device) != PathDriverKind::wave_stages) return {"0"};
+    const std::uint32_t units = std::max(1u, device.info().compute_units);
+    std::vector<std::string> sizes;
+    for (const std::uint32_t each : {2048u, 512u, 8192u}) sizes.push_back(std::to_string(units * each));
+    return sizes;
 }
 
 /// What is best by the timings; of axes without any, what is wished for if there is such a value, or the
@@ -99,8 +112,10 @@ const std::vector<TuneSearch>& tune_searches() {
         {"paths",
          TuneWhen::asked,
          {{"path_driver", path_drivers_for,
-           [](Device& device, const std::string& name) {
-               set_path_driver(device, *find_path_driver(name));
+           [](Device& device, const std::string& name) { set_path_driver(device, *find_path_driver(name)); }},
+          {"batch", batches_for,
+           [](Device& device, const std::string& paths) {
+               set_batch(device, std::uint32_t(std::stoul(paths)));
            }}},
          make_path_workload}};
     return searches;

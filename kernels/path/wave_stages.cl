@@ -9,23 +9,23 @@
 
 #include "path/wave_stages.h"
 
+/* A stage takes of its arguments what it needs. */
 #define WAVE_STAGE_PARAMETERS SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)
-#define WAVE_STAGE                                                                        \
-    const size_t i = get_global_id(0) % POOL_SLOTS, item = get_global_id(0) / POOL_SLOTS; \
-    if (item >= pool_count) return;                                                       \
-    const Scene scene = SCENE_FROM_PARAMETERS;                                            \
-    const Pool pool = pool_at(item, states, pixels, taken, paths, hits, pending);         \
-    Tally tally = tally_start();
-#define WAVE_WORK                                                                          \
+#define WAVE_STAGE                                                                         \
+    const size_t i = get_global_id(0) % POOL_SLOTS, item = get_global_id(0) / POOL_SLOTS;  \
+    if (item >= pool_count) return;                                                        \
+    const Scene scene = SCENE_FROM_PARAMETERS;                                             \
     const Frame local_frame = *frame;                                                      \
     const WaveWork list = {&local_frame, work + first_work, work_count * FILM_TILE_PIXELS, \
-                           ((ulong)first_sample_high << 32) | first_sample_low};
+                           ((ulong)first_sample_high << 32) | first_sample_low};           \
+    const WaveFilm film = {sums, half_sums, samples, first_pixel};                         \
+    const Pool pool = pool_at(item, states, pixels, taken, paths, hits, pending);          \
+    Tally tally = tally_start();                                                           \
+    (void)list, (void)film, (void)tally, (void)next_pixel, (void)counters;
 
 /* Adds samples to the film that the work names. next_pixel[1]: slots that have nothing to do any more. */
 kernel void wave_end_paths(WAVE_STAGE_PARAMETERS) {
     WAVE_STAGE
-    WAVE_WORK
-    const WaveFilm film = {sums, half_sums, samples, first_pixel};
     if (pool.states[i] != WAVE_IDLE && wave_end(&scene, &list, &film, &pool, i, next_pixel, &tally))
         atomic_inc(next_pixel + 1);
     tally_add(counters, &tally);
@@ -33,7 +33,6 @@ kernel void wave_end_paths(WAVE_STAGE_PARAMETERS) {
 
 kernel void wave_start_paths(WAVE_STAGE_PARAMETERS) {
     WAVE_STAGE
-    WAVE_WORK
     wave_start(&scene, &list, &pool, i);
 }
 

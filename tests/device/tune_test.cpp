@@ -6,6 +6,8 @@
 
 #include <cstring>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "check/tracer.h"
@@ -51,8 +53,8 @@ const TuneSearch& search_of(const std::string& name) {
 
 std::vector<TuneTiming> rays_and_paths(double mega, double wave) {
     return {{"rays", {{"format", "bvh8"}, {"local", "64"}}, 1.0},
-            {"paths", {{"path_driver", "mega"}}, mega},
-            {"paths", {{"path_driver", "wave"}}, wave}};
+            {"paths", {{"path_driver", "mega"}, {"batch", "0"}}, mega},
+            {"paths", {{"path_driver", "wave"}, {"batch", "0"}}, wave}};
 }
 
 /// A search of two values on each of two axes, whose "b" is known with "big" alone. The workload takes as
@@ -133,16 +135,18 @@ TEST_F(Tune, a_wish_is_granted_with_what_is_best_beside_it) {
     EXPECT_THROW(ensure_tuned(device, {{"format", "none"}}), Error);
 }
 
-TEST_F(Tune, times_both_drivers_of_paths) {
+TEST_F(Tune, times_every_driver_of_paths) {
     Device& device = test_device();
     const auto timings = time_search(device, search_of("paths"));
-    ASSERT_EQ(timings.size(), 2u);
-    EXPECT_EQ(timings[0].values, (Tuning{{"path_driver", "mega"}}));
-    EXPECT_EQ(timings[1].values, (Tuning{{"path_driver", "wave"}}));
+    std::map<std::string, std::set<std::string>> batches;
     for (const TuneTiming& timing : timings) {
+        batches[timing.values.at("path_driver")].insert(timing.values.at("batch"));
         EXPECT_GT(timing.seconds, 1e-3) << "too short to tell";
         EXPECT_LT(timing.seconds, 60.0);
     }
+    EXPECT_EQ(batches.at("mega"), std::set<std::string>{"0"});
+    EXPECT_EQ(batches.contains("wave"), device.info().type == "cpu");
+    EXPECT_EQ(batches.at("wave-stages").size(), 3u);
 }
 
 TEST_F(Tune, the_driver_of_paths_is_what_was_measured_unless_one_is_wished_for) {
