@@ -1,6 +1,6 @@
 """What kernels may take: gpu_budgets.json against what the compilers say.
 
-The file's rows: "kernels" (patterns), "options" (names of option sets as patterns, or OPTION=VALUE; all of them must
+The file's rows: "kernels" (patterns of names, or of PROGRAM:NAME), "options" (names of option sets as patterns, or OPTION=VALUE; all of them must
 hold), "target", "goal" (where they shall end) and "limit" (what is enforced; it may only go down; null until
 --lower has measured it). A kernel answers to the first row that fits it. Of `width` a limit is the least, of the rest the
 most. "crashes" lists the programs that a compiler is known to crash on, with target and option sets."""
@@ -34,15 +34,18 @@ class Budgets:
         for row in self.rows:
             row["measured"] = {}
 
-    def row_of(self, target, kernel, name, macros):
+    def row_of(self, target, program, kernel, name, macros):
         def holds(word):
             option, is_value, value = word.partition("=")
             if is_value:
                 return str(macros.get("TRIAD_" + option, 1)) == value
             return fnmatch.fnmatchcase(name, word)
 
+        def fits(pattern):
+            return fnmatch.fnmatchcase(f"{program}:{kernel}" if ":" in pattern else kernel, pattern)
+
         for row in self.rows:
-            if (row["target"] == target and any(fnmatch.fnmatchcase(kernel, p) for p in row["kernels"].split())
+            if (row["target"] == target and any(map(fits, row["kernels"].split()))
                     and all(map(holds, row["options"].split()))):
                 return row
         return None
@@ -60,7 +63,7 @@ class Budgets:
             # As a CPU has them, kernels need only compile.
             for name in [n for n in job["sets"] if n != "alone"]:
                 for kernel, figures in result.get("kernels", {}).items():
-                    failures += self.compare(self.row_of(target, kernel, name, sets[name]), f"{kernel} of {of}", figures)
+                    failures += self.compare(self.row_of(target, job["program"], kernel, name, sets[name]), f"{kernel} of {of}", figures)
         compiled = {(job["program"], job["target"].name, name) for job in work for name in job["sets"]}
         known = {(c["program"], c["target"], name) for c in self.crashes for name in sets
                  if any(fnmatch.fnmatchcase(name, p) for p in c["options"].split())}

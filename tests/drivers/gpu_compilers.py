@@ -19,6 +19,8 @@ import gpu_report
 import gpu_targets
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+# Of CPUs: GPUs follow paths by path/wave_stages.cl. They need only compile.
+FOR_CPUS = {"path/wave.cl", "path/wave_full.cl"}
 JOBS = 2  # compilers at once: the larger ones take a gigabyte
 
 
@@ -65,7 +67,7 @@ def text_key(kernels, sets, item):
 
 def jobs(targets, programs, sets, kernels, pool):
     """One per target and text that its preprocessor makes; sets whose texts are equal share it."""
-    items = [(t, p, n) for t in targets for p in programs for n in sets]
+    items = [(t, p, n) for t in targets for p in programs for n in (["alone"] if p in FOR_CPUS else sets)]
     found = {}
     for (target, program, name), (key, defines) in zip(items, pool.map(functools.partial(text_key, kernels, sets), items)):
         job = found.setdefault((target.name, program, key), {"target": target, "program": program, "key": key,
