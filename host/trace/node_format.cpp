@@ -16,6 +16,8 @@ BvhFormat default_format(const DeviceInfo& device) {
 void set_format(Device& device, BvhFormat format) {
     Options shape = device.shape();
     shape[option] = format == BvhFormat::bvh4 ? "1" : "0";
+    // GPUs keep in memory what a function hands to one that it calls.
+    if (device.info().type == "gpu") shape["TRIAD_INLINED"] = "1";
     device.set_shape(std::move(shape));
 }
 
