@@ -11,8 +11,20 @@
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wpass-failed" /* where it cannot: triad bench kernels shows that */
 #endif
+#define POOL_LANES 8
 #define WAVE_SLOTS(i) for (size_t i = 0; i < POOL_SLOTS; ++i)
-#define WAVE_LANES(i) _Pragma("clang loop vectorize(assume_safety)") WAVE_SLOTS(i)
+/* The slots are lanes, a few at a time: where none of those is in the state, they are passed over. When the
+ * list of work has come to its end, most are. */
+#define WAVE_LANES(i, state)                                        \
+    for (size_t first = 0; first < POOL_SLOTS; first += POOL_LANES) \
+        if (wave_any(pool.states + first, state))                   \
+    _Pragma("clang loop vectorize(assume_safety)") for (size_t i = first; i < first + POOL_LANES; ++i)
+
+TRIAD_FUNCTION int wave_any(global const uint* states, uint state) {
+    uint any = 0u;
+    for (uint i = 0u; i < POOL_LANES; ++i) any |= (uint)(states[i] == state);
+    return any != 0u;
+}
 
 /* Adds to the film the samples that the work names. */
 kernel void trace_wave(SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)) {
@@ -30,9 +42,9 @@ kernel void trace_wave(SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)) {
     do {
         idle = 0u;
         WAVE_SLOTS(i) idle += (uint)wave_end(&scene, &list, &film, &pool, i, next_pixel, &tally);
-        WAVE_LANES(i) { wave_start(&scene, &list, &pool, i); }
+        WAVE_LANES(i, WAVE_START) { wave_start(&scene, &list, &pool, i); }
         WAVE_SLOTS(i) wave_edge(&scene, &pool, i, &tally);
-        WAVE_LANES(i) { wave_vertex(&scene, &pool, i, &tally); }
+        WAVE_LANES(i, WAVE_HIT) { wave_vertex(&scene, &pool, i, &tally); }
         WAVE_SLOTS(i) wave_shadow(&scene, &pool, i, &tally);
     } while (idle < POOL_SLOTS);
     tally_add(counters, &tally);
