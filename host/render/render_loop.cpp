@@ -50,7 +50,7 @@ class RenderLoop {
                 look();
             }
             reach(wanted_at(*end));
-            if (interrupted_) break;
+            if (interrupted_ || cut_) break;
             if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
             if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
         }
@@ -58,8 +58,8 @@ class RenderLoop {
         if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
         const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
         s_.store.set_ranges(with_before(range));
-        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), rendered, trend_.slope(),
-                perceived_noise_};
+        const Stop stop = interrupted_ ? Stop::interrupt : cut_ ? Stop::time : schedule_.stop_reason();
+        return {range, stop, rendered, trend_.slope(), perceived_noise_};
     }
 
   private:
@@ -77,6 +77,9 @@ class RenderLoop {
     SetErrors set_errors_;     ///< the latest
     std::uint64_t total_ = 0;  ///< samples over all pixels
     bool interrupted_ = false;
+    /// Photons came with a sample of some tiles alone. Time may be left, where tiles took less than was
+    /// foreseen; but photons of a further sample would be another one's in these tiles.
+    bool cut_ = false;
     const RenderClock::time_point start_ = RenderClock::now();
     double next_estimate_ = 0.25;
     double relmse_ = -1;
@@ -116,7 +119,7 @@ class RenderLoop {
 
     /// Renders pass by pass until every set holds what is wanted, or it is time to stop.
     void reach(const SetSamples& wanted) {
-        while (!interrupted_ && !schedule_.time_is_up(samples(), seconds())) {
+        while (!interrupted_ && !cut_ && !schedule_.time_is_up(samples(), seconds())) {
             std::uint64_t waiting = 0;
             for (std::size_t i = 0; i < have_.size(); ++i) waiting += (wanted[i] > have_[i]) * pixels_[i];
             if (waiting == 0) return;
@@ -166,6 +169,10 @@ class RenderLoop {
             for (const dev::TileWork& w : work) items += launcher_.samples_of(w);
             const double paths = double(items) / launcher_.pace(), photon_time = run * photon_seconds_,
                          left = schedule_.time_left(seconds());
+            if (const auto bins = std::uint32_t(film().bins()); run > bins && left < paths + photon_time) {
+                for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = bins;
+                return pass_with_photons(std::move(work), may_be_cut);  // fewer samples rather than tiles
+            }
             // as many photons in proportion as tiles, but enough of them
             double tiles = std::min(left / (paths + photon_time), 1.0);
             share = std::max(tiles, least_photon_share);
@@ -182,7 +189,8 @@ class RenderLoop {
             for (std::size_t done = 0; done < work.size();) done += launch(work, done, i, may_be_cut);
         }
         if (may_be_cut) photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
-        return work.size() == all;
+        cut_ = work.size() < all;
+        return !cut_;
     }
 
     void trace_photons(std::uint64_t sample, double share) {
