@@ -62,8 +62,7 @@ class Room {
         shape_.quanta_log2 = scene_->packed().quanta_log2;
         const auto tracer = make_tracer();
         time(*tracer);  // warms up
-        while (tiles_ < all_tiles && time(*tracer) < launch_seconds)
-            tiles_ = std::min(2 * tiles_, all_tiles);
+        while (tiles_ < all_tiles && time(*tracer) < launch_seconds) tiles_ = std::min(2 * tiles_, all_tiles);
         while (tiles_ == all_tiles && samples_ < most_samples_per_launch && time(*tracer) < launch_seconds)
             samples_ *= 2;
     }
