@@ -1,6 +1,7 @@
 #pragma once
 /// triad bench error: scenes x settings x budgets x repetitions against a reference (docs/bench.md).
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
