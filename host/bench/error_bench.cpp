@@ -3,6 +3,13 @@
 #include <algorithm>
 
 namespace triad {
+namespace {
+
+void append(std::string& names, const std::string& scene, const std::string& setting) {
+    names += (names.empty() ? "" : "; ") + scene + ", " + setting;
+}
+
+}  // namespace
 
 const ErrorScene& ErrorBench::scene_of(const ErrorCurve& curve) const {
     return *std::find_if(scenes.begin(), scenes.end(),
@@ -11,6 +18,20 @@ const ErrorScene& ErrorBench::scene_of(const ErrorCurve& curve) const {
 
 bool ErrorBench::right() const {
     return std::all_of(curves.begin(), curves.end(), [](const ErrorCurve& c) { return c.right; });
+}
+
+std::string ErrorBench::wrong() const {
+    std::string names;
+    for (const ErrorCurve& c : curves)
+        if (!c.right) append(names, c.scene, c.setting);
+    return names;
+}
+
+std::string ErrorBench::worse() const {
+    std::string names;
+    for (const ErrorChange& c : changes)
+        if (c.verdict == ErrorChange::Verdict::worse) append(names, c.scene, c.setting);
+    return names;
 }
 
 }  // namespace triad

@@ -98,6 +98,10 @@ struct ErrorBench {
 
     const ErrorScene& scene_of(const ErrorCurve& curve) const;
     bool right() const;  ///< no setting's picture is wrong
+    /// "scene, setting; scene, setting": whose picture is not the reference's.
+    std::string wrong() const;
+    /// The same of what became worse than before.
+    std::string worse() const;
 };
 
 }  // namespace triad

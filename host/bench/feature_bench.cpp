@@ -1,6 +1,7 @@
 #include "bench/feature_bench.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <optional>
 
 #include "bench/feature_scenes.h"
@@ -70,6 +71,10 @@ FeatureCost measure(Device& device, const FeatureBenchPlan& plan, const FeatureS
 }
 
 }  // namespace
+
+EmptyCaches::EmptyCaches() {
+    for (const char* name : {"XDG_CACHE_HOME", "POCL_CACHE_DIR"}) ::setenv(name, folder_.path().c_str(), 1);
+}
 
 std::vector<FeatureCost> measure_features(Device& device, const FeatureBenchPlan& plan,
                                           const std::function<bool(const FeatureCost&)>& report) {

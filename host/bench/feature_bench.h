@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/temporary_folder.h"
 #include "bench/repetitions.h"
 #include "device/device.h"
 
@@ -30,6 +31,16 @@ struct FeatureCost {
     FeatureRun left_out, unused;
     std::optional<FeatureRun> used;
     bool same_bits = false;  ///< unused made the film that left_out made
+};
+
+/// Every kernel is compiled on devices that are opened while it lives: neither our cache nor PoCL's has any.
+/// For the rest of the process.
+class EmptyCaches {
+  public:
+    EmptyCaches();
+
+  private:
+    TemporaryFolder folder_;
 };
 
 /// Measures feature after feature on generated scenes; the three programs take turns, in an order that

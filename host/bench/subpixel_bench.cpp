@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "base/text.h"
 #include "metric/tile_metric.h"
 
@@ -153,13 +154,18 @@ SubpixelMethod supersampling(unsigned side) {
     return {name, reconstruction_of({.method = name})};
 }
 
-void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelDisplay>& displays,
-                  const std::string& scene, SubpixelSource& source,
+void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelSubject>& subjects,
                   const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows) {
-    Run run(plan, displays, scene, source, go_on, rows);
-    for (const unsigned rays : plan.rays)
-        if (!run.compare(rays)) return;
-    run.supersample();
+    std::vector<SubpixelDisplay> displays;
+    for (const PanelView& view : plan.displays) displays.push_back(subpixel_display(view));
+    for (const SubpixelSubject& subject : subjects) {
+        inform("Scene " + subject.name);
+        const auto source = subject.make();
+        Run run(plan, displays, subject.name, *source, go_on, rows);
+        for (const unsigned rays : plan.rays)
+            if (!run.compare(rays)) return;
+        if (!run.supersample()) return;
+    }
 }
 
 }  // namespace triad

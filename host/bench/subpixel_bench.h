@@ -49,10 +49,15 @@ SubpixelDisplay subpixel_display(const PanelView& view);
 /// rays are in vain.
 SubpixelMethod supersampling(unsigned side);
 
-/// Adds the rows of one scene, on displays that are the plan's. `go_on` is told what was done, and returns
-/// false to stop. Rays are traced once for all displays.
-void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelDisplay>& displays,
-                  const std::string& scene, SubpixelSource& source,
+/// A scene of the bench; made when its turn comes.
+struct SubpixelSubject {
+    std::string name;
+    std::function<std::unique_ptr<SubpixelSource>()> make;
+};
+
+/// Adds the rows of one scene after the other. `go_on` is told what was done, and returns false to stop: what
+/// was measured is there. Rays of a scene are traced once for all displays.
+void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelSubject>& subjects,
                   const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows);
 
 }  // namespace triad

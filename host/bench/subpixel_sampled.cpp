@@ -4,6 +4,7 @@
 #include <random>
 
 #include "base/colour.h"
+#include "base/error.h"
 #include "base/text.h"
 #include "bench/subpixel_source.h"
 #include "pack/ray_filter.h"
@@ -147,7 +148,11 @@ class SampledSource : public SubpixelSource {
 
 }  // namespace
 
-std::unique_ptr<SubpixelSource> sampled_source(Device& device, RgbImage picture, unsigned samples) {
+std::unique_ptr<SubpixelSource> sampled_source(Device& device, const std::string& name, RgbImage picture,
+                                               unsigned samples) {
+    if (picture.rgb.empty() || picture.width % samples > 0 || picture.height % samples > 0)
+        throw Error(Exit::scene,
+                    name + format(": R, G and B, and a size that %u divides, are needed.", samples));
     return std::make_unique<SampledSource>(device, std::move(picture), samples);
 }
 

@@ -43,7 +43,7 @@ class SubpixelSource {
 
 /// A scene, rendered. The reference is rendered first, at `samples` times the size.
 struct RenderedView {
-    const Scene* scene = nullptr;
+    std::shared_ptr<const Scene> scene;
     RenderSettings settings;  ///< of the picture
     float exposure_ev = 0;
     ToneMap tone_map = ToneMap::khronos;
@@ -51,8 +51,10 @@ struct RenderedView {
 };
 std::unique_ptr<SubpixelSource> rendered_source(Device& device, const RenderedView& view);
 
-/// A picture, sampled: a ray sees the sample that it meets, without noise of its own. The reference is the
-/// picture, with half as many samples where these are 12 or more and even.
-std::unique_ptr<SubpixelSource> sampled_source(Device& device, RgbImage picture, unsigned samples);
+/// A picture of so many samples per pixel along each axis: a ray sees the sample that it meets, without noise
+/// of its own. The reference is the picture, with half as many samples where these are 12 or more and even.
+/// Throws Error(scene) that names the picture when it has no pixels, or no whole number of them.
+std::unique_ptr<SubpixelSource> sampled_source(Device& device, const std::string& name, RgbImage picture,
+                                               unsigned samples);
 
 }  // namespace triad

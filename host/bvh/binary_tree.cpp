@@ -6,63 +6,17 @@
 #include <numeric>
 
 #include "base/parallel_for.h"
+#include "bvh/binned_split.h"
 
 namespace triad::bvh {
 namespace {
 
 constexpr std::uint32_t leaf_size = 4;
-constexpr int bin_count = 16;
 constexpr std::size_t parallel_size = 1u << 15;  ///< ranges above it are folded on all cores
 constexpr std::size_t task_size = 1u << 12;      ///< ranges below it become one task
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Levels of inner nodes that a balanced tree over `count` references needs.
 unsigned balanced_height(std::size_t count) { return count <= 1 ? 0 : unsigned(std::bit_width(count - 1)); }
-
-float doubled_centre(const Reference& r, int axis) { return r.box.lo[axis] + r.box.hi[axis]; }
-
-/// Bounds of boxes, and of their doubled centres.
-struct RangeBounds {
-    Box box, centres;
-    void add(const Reference& r) {
-        Box centre;
-        for (int a = 0; a < 3; ++a) centre.lo[a] = centre.hi[a] = doubled_centre(r, a);
-        box.add(r.box), centres.add(centre);
-    }
-    void add(const RangeBounds& other) { box.add(other.box), centres.add(other.centres); }
-};
-
-/// Which bin a centre falls into.
-struct Binning {
-    float origin[3], scale[3];
-
-    explicit Binning(const Box& centres) {
-        for (int a = 0; a < 3; ++a) {
-            origin[a] = centres.lo[a];
-            scale[a] = bin_count * 0.9999f / (centres.hi[a] - centres.lo[a]);
-            if (!(scale[a] < 1e30f)) scale[a] = 0.0f;  // no extent along this axis: one bin
-        }
-    }
-    int operator()(const Reference& r, int axis) const {
-        return int((doubled_centre(r, axis) - origin[axis]) * scale[axis]);
-    }
-};
-
-struct Bin {
-    Box box;
-    std::uint32_t count = 0;
-};
-
-struct Bins {
-    Bin bin[3][bin_count];
-    void add(const Bins& other) {
-        for (int a = 0; a < 3; ++a)
-            for (int i = 0; i < bin_count; ++i) {
-                bin[a][i].box.add(other.bin[a][i].box);
-                bin[a][i].count += other.bin[a][i].count;
-            }
-    }
-};
 
 /// body(result, reference) over the range, in parallel when it is long. Sums of integers, minima and maxima
 /// only: the order changes nothing.
@@ -80,33 +34,6 @@ T fold(std::span<const Reference> range, const Body& body) {
     });
     for (const T& part : parts) result.add(part);
     return result;
-}
-
-struct Split {
-    float cost = infinity;
-    int axis = 0, bin = 0;  ///< bins below `bin` go left
-};
-
-/// The surface-area heuristic over all borders of bins: half area times leaves of `unit`, left plus right.
-Split best_split(const Bins& bins, std::uint32_t unit) {
-    const auto cost = [unit](const Bin& b) { return b.box.half_area() * float((b.count + unit - 1) / unit); };
-    Split best;
-    for (int axis = 0; axis < 3; ++axis) {
-        std::array<float, bin_count> right_cost;
-        Bin right, left;
-        for (int i = bin_count; --i > 0;) {
-            right.box.add(bins.bin[axis][i].box);
-            right.count += bins.bin[axis][i].count;
-            right_cost[std::size_t(i)] = right.count ? cost(right) : infinity;
-        }
-        for (int i = 1; i < bin_count; ++i) {
-            left.box.add(bins.bin[axis][i - 1].box);
-            left.count += bins.bin[axis][i - 1].count;
-            const float total = left.count ? cost(left) + right_cost[std::size_t(i)] : infinity;
-            if (total < best.cost) best = {total, axis, i};
-        }
-    }
-    return best;
 }
 
 /// The corners as a set: sorted, with -0 made 0, so that rotation, winding and the sign of zero do not
@@ -210,7 +137,7 @@ Builder::Division Builder::divide(Range range) const {
                                                       }
                                                   }),
                                        unit_);
-        if (split.cost < infinity) {
+        if (split.cost < std::numeric_limits<float>::infinity()) {
             const auto middle =
                 std::partition(references_.begin() + range.begin, references_.begin() + range.end,
                                [&](const Reference& r) { return binning(r, split.axis) < split.bin; });

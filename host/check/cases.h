@@ -11,6 +11,7 @@ void add_layout(std::vector<CheckCase>& cases);
 void add_random(std::vector<CheckCase>& cases);
 void add_sampling(std::vector<CheckCase>& cases);
 void add_traversal(std::vector<CheckCase>& cases);
+void add_traversal_input(std::vector<CheckCase>& cases);
 void add_traversal_reference(std::vector<CheckCase>& cases);
 void add_any_bits(std::vector<CheckCase>& cases);
 void add_ggx(std::vector<CheckCase>& cases);

@@ -1,7 +1,5 @@
 #include "cli/bench_error.h"
 
-#include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -11,9 +9,9 @@
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "bench/error_csv.h"
-#include "bench/error_curves.h"
-#include "bench/error_runs.h"
+#include "bench/error_experiment.h"
 #include "cli/command_line.h"
 #include "cli/experiment.h"
 #include "report/bench_tables.h"
@@ -41,111 +39,57 @@ std::vector<NamedOptions> named_settings(const BenchErrorOptions& o) {
     return settings;
 }
 
-/// Results are told apart by these names.
-void require_different(const std::vector<NamedOptions>& all, const std::string& what) {
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (all[i].name == all[j].name)
-                throw Error(Exit::usage, "Two " + what + " are called " + all[i].name +
-                                             "; give one another name: \"NAME: ...\".");
-}
-
-/// --reference-spp, or so much that the reference's variance is small beside that of the last budget.
-std::uint64_t reference_spp(const BenchErrorOptions& o) {
-    return o.reference_spp ? o.reference_spp : std::max<std::uint64_t>(1024, 8 * o.spp);
-}
-
-class Bench {
+/// What is named on the command line, read by the parser of `triad render`: every slip is found before the
+/// long part.
+class Requests {
   public:
-    explicit Bench(const BenchErrorOptions& options)
-        : o_(options), scenes_(named_scenes(options)), settings_(named_settings(options)) {
-        require_different(scenes_, "scenes");
-        require_different(settings_, "settings");
-        // Every slip is found before the long part.
-        for (const NamedOptions& scene : scenes_)
-            for (const NamedOptions& setting : settings_) parsed(scene, setting);
+    explicit Requests(const BenchErrorOptions& o) : scenes_(named_scenes(o)), settings_(named_settings(o)) {
+        const std::vector<std::string> common = CLI::detail::split_up("--size " + o.size + " " + o.common);
+        for (const NamedOptions& scene : scenes_) {
+            requests_.emplace_back();
+            for (const NamedOptions& setting : settings_)
+                requests_.back().push_back(render_options(common, scene, setting));
+        }
     }
 
-    ErrorBench run() {
-        ErrorBench bench;
-        bench.repetitions = o_.repetitions;
-        for (const NamedOptions& setting : settings_) {
-            const RenderRequest options = parsed(scenes_.front(), setting);
-            const DeviceInfo& device = device_of(options).info();
-            if (bench.settings.empty()) bench.device = device;
-            bench.settings.push_back({setting.name, setting.text(), device.name, device.driver});
-        }
-        for (const NamedOptions& scene : scenes_)
-            if (!run(scene, bench)) {
-                bench.interrupted = true;
-                break;
-            }
-        fit_curves(bench);
-        return bench;
+    /// Which must not outlive this.
+    ErrorExperiment experiment() {
+        ErrorExperiment e;
+        for (const NamedOptions& scene : scenes_) e.scenes.push_back({scene.name, scene.text()});
+        for (const NamedOptions& setting : settings_) e.settings.push_back({setting.name, setting.text()});
+        e.device = [this](std::size_t setting) -> Device& { return device_of(requests_[0][setting]); };
+        e.load = [this](std::size_t scene) { return load_scene(requests_[scene][0]); };
+        e.prepare = [this](std::size_t scene, std::size_t setting, const Scene& loaded) {
+            return prepare(scene, setting, loaded);
+        };
+        return e;
     }
 
   private:
-    const BenchErrorOptions& o_;
     const std::vector<NamedOptions> scenes_, settings_;
+    std::vector<std::vector<RenderRequest>> requests_;  ///< [scene][setting]
     std::map<std::pair<std::string, unsigned>, std::unique_ptr<Device>> devices_;
-    const InterruptGuard guard_;
 
-    RenderRequest parsed(const NamedOptions& scene, const NamedOptions& setting) const {
-        std::vector<std::string> common = CLI::detail::split_up("--size " + o_.size + " " + o_.common);
-        return render_options(common, scene, setting);
-    }
-
-    Device& device_of(const RenderRequest& options) {
-        auto& device = devices_[{options.device, options.threads}];
-        if (!device) device = std::make_unique<Device>(open_device(options));
+    Device& device_of(const RenderRequest& request) {
+        auto& device = devices_[{request.device, request.threads}];
+        if (!device) device = std::make_unique<Device>(open_device(request));
         return *device;
     }
 
-    /// One scene; false: interrupted.
-    bool run(const NamedOptions& name, ErrorBench& bench) {
-        inform("Scene " + name.name);
-        std::vector<ErrorCase> cases;
-        const RenderRequest first = parsed(name, settings_.front());
-        const Scene scene = load_scene(first);
-        for (std::size_t i = 0; i < settings_.size(); ++i) {
-            const RenderRequest options = parsed(name, settings_[i]);
-            if (options.scene_path != first.scene_path || options.env_path != first.env_path ||
-                options.scene_index != first.scene_index || options.glass != first.glass)
-                throw Error(Exit::usage,
-                            "Setting " + settings_[i].name +
-                                ": file, --scene, --env and --glass belong to the scene, not to a setting.");
-            const OutputStyle style = options.style;
-            cases.push_back({bench.settings[i], &device_of(options), settings_of(options, scene),
-                             options.adaptive.value_or(false), [style](Device& device, const Film& film) {
-                                 return rgb_of(film, display_of(device, film, style));
-                             }});
-        }
-        ErrorScene described;
-        described.name = name.name, described.options = name.text();
-        described.scene_hash = hash_of(scene);
-        const ErrorPlan plan{o_.spp, o_.time, o_.repetitions, o_.seed, reference_spp(o_), o_.own_references};
-        ProgressDisplay display(progress_style(o_.progress));
-        const ErrorBenchHost host{load_reference, keep_reference,
-                                  [&](const Progress& p, double before) {
-                                      display.update({.done = p.done,
-                                                      .seconds = p.seconds,
-                                                      .seconds_left = p.seconds_left,
-                                                      .spp = before + p.samples,
-                                                      .relmse = p.relmse,
-                                                      .trend = p.trend});
-                                      return !guard_.interrupted();
-                                  },
-                                  [&] { return !guard_.interrupted(); },
-                                  [&](const ErrorRun& run) { say(run); }};
-        return run_errors(plan, described, scene, std::move(cases), host, bench);
-    }
-
-    void say(const ErrorRun& run) const {
-        char text[300];
-        std::snprintf(text, sizeof text, "%s, repetition %u of %u, %s: %.6g spp in %.2f s, relMSE %.3g",
-                      run.scene.c_str(), run.repetition + 1, o_.repetitions, run.setting.c_str(), run.spp,
-                      run.seconds, run.relmse);
-        inform(text);
+    ErrorCase prepare(std::size_t scene, std::size_t setting, const Scene& loaded) const {
+        const RenderRequest &request = requests_[scene][setting], &first = requests_[scene][0];
+        if (request.scene_path != first.scene_path || request.env_path != first.env_path ||
+            request.scene_index != first.scene_index || request.glass != first.glass)
+            throw Error(Exit::usage,
+                        "Setting " + settings_[setting].name +
+                            ": file, --scene, --env and --glass belong to the scene, not to a setting.");
+        ErrorCase ready;
+        ready.settings = settings_of(request, loaded);
+        ready.adaptive = request.adaptive.value_or(false);
+        ready.display = [style = request.style](Device& device, const Film& film) {
+            return rgb_of(film, display_of(device, film, style));
+        };
+        return ready;
     }
 
     static RgbImage rgb_of(const Film& film, const std::vector<float>& rgba) {
@@ -154,6 +98,43 @@ class Bench {
         return image;
     }
 };
+
+void say(const ErrorRun& run, unsigned repetitions) {
+    inform(format("%s, repetition %u of %u, %s: %.6g spp in %.2f s, relMSE %.3g", run.scene.c_str(),
+                  run.repetition + 1, repetitions, run.setting.c_str(), run.spp, run.seconds, run.relmse));
+}
+
+/// Interrupted: says so in the result.
+ErrorBench measure(const BenchErrorOptions& o) {
+    if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
+    Requests requests(o);
+    ErrorExperiment experiment = requests.experiment();
+    require_different_names(experiment);
+    experiment.plan = {o.spp, o.time, o.repetitions, o.seed, o.reference_spp, o.own_references};
+    if (!o.against.empty()) {
+        const auto bytes = read_file(o.against);
+        experiment.before =
+            runs_from_csv(o.against, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    const InterruptGuard guard;
+    ProgressDisplay display(progress_style(o.progress));
+    const ErrorBench bench =
+        run_experiment(experiment, {load_reference, keep_reference,
+                                    [&](const Progress& p, double before) {
+                                        display.update({.done = p.done,
+                                                        .seconds = p.seconds,
+                                                        .seconds_left = p.seconds_left,
+                                                        .spp = before + p.samples,
+                                                        .relmse = p.relmse,
+                                                        .trend = p.trend});
+                                        return !guard.interrupted();
+                                    },
+                                    [&] { return !guard.interrupted(); },
+                                    [&](const ErrorRun& run) { say(run, o.repetitions); }});
+    if (!o.against.empty() && bench.changes.empty())
+        warn(o.against + " has no scene and setting in common with this bench that could be compared.");
+    return bench;
+}
 
 void write_bench(const ErrorBench& bench, const std::vector<SettingScore>& scores, const std::string& json,
                  const std::string& csv) {
@@ -167,25 +148,11 @@ void write_bench(const ErrorBench& bench, const std::vector<SettingScore>& score
 
 }  // namespace
 
-ErrorBench measure_errors(const BenchErrorOptions& o) {
-    if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
-    std::vector<ErrorRun> before;
-    if (!o.against.empty()) {
-        const auto bytes = read_file(o.against);
-        before = runs_from_csv(o.against, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-    }
-    ErrorBench bench = Bench(o).run();
-    bench.changes = changes_of(before, bench.runs);
-    if (!o.against.empty() && bench.changes.empty())
-        warn(o.against + " has no scene and setting in common with this bench that could be compared.");
-    return bench;
-}
-
 Exit run_bench_error(const BenchErrorOptions& o) {
     for (const std::string& path : {o.csv, o.json})
         if (!path.empty()) check_writable(path);
     if (!o.folder.empty()) fs::create_directories(o.folder);
-    const ErrorBench bench = measure_errors(o);
+    const ErrorBench bench = measure(o);
     const std::vector<SettingScore> scores =
         o.baselines.empty() ? std::vector<SettingScore>{} : score_settings(bench, o.baselines);
     if (o.json != "-" && o.csv != "-") std::fputs((table_of(bench) + table_of(scores)).c_str(), stdout);
@@ -195,16 +162,10 @@ Exit run_bench_error(const BenchErrorOptions& o) {
         write_error_report(folder, bench, {o.title, command_words(), date_words(), scores});
     }
     write_bench(bench, scores, o.json, o.csv);
-    std::string wrong, worse;
-    for (const ErrorCurve& c : bench.curves)
-        if (!c.right) wrong += (wrong.empty() ? "" : "; ") + c.scene + ", " + c.setting;
-    for (const ErrorChange& c : bench.changes)
-        if (c.verdict == ErrorChange::Verdict::worse)
-            worse += (worse.empty() ? "" : "; ") + c.scene + ", " + c.setting;
-    if (!wrong.empty())
+    if (!bench.right())
         throw Error(Exit::comparison,
-                    "The picture is not the reference's, and the numbers are void: " + wrong + ".");
-    if (!worse.empty() && o.fail_if_worse)
+                    "The picture is not the reference's, and the numbers are void: " + bench.wrong() + ".");
+    if (const std::string worse = bench.worse(); !worse.empty() && o.fail_if_worse)
         throw Error(Exit::comparison, "Worse than " + o.against + ": " + worse + ".");
     if (!bench.interrupted) return Exit::done;
     inform("Stopped early: what was measured until then is above.");

@@ -1,12 +1,12 @@
 #pragma once
 /// triad bench error: scenes x settings x budgets x repetitions against a reference (docs/bench.md).
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "bench/error_bench.h"
 
 namespace triad {
 
@@ -28,7 +28,7 @@ struct BenchErrorOptions {
     std::string progress = "auto";
     std::string title = "Error against time";  ///< of the report
     std::map<std::string, double>
-        baselines;  ///< by scene; with them settings are scored (measure/error_score.h)
+        baselines;  ///< by scene; with them settings are scored (bench/error_score.h)
 };
 
 /// Declares what every error bench understands: settings, repetitions, outputs. `options` must outlive the
@@ -38,9 +38,6 @@ void declare(CLI::App& command, BenchErrorOptions& options);
 /// Runs, prints the table and writes what was asked for. Throws Error(comparison) after all that when a
 /// picture is wrong.
 Exit run_bench_error(const BenchErrorOptions& options);
-
-/// The same without printing, writing and judging: for other benches. Interrupted: says so in the result.
-ErrorBench measure_errors(const BenchErrorOptions& options);
 
 /// `triad bench error`.
 void add_bench_error(CLI::App& bench, Exit& exit);

@@ -1,10 +1,8 @@
 #include "cli/bench_features.h"
 
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
 
-#include "base/child_process.h"
 #include "base/interrupt.h"
 #include "bench/feature_bench.h"
 #include "report/report.h"
@@ -17,18 +15,6 @@ struct BenchFeaturesOptions {
     std::string device, json, kernels;
     unsigned threads = 0;
     FeatureBenchPlan plan;
-};
-
-/// Every kernel is compiled while it lives: neither our cache nor PoCL's has any.
-class EmptyCaches {
-  public:
-    EmptyCaches() {
-        for (const char* name : {"XDG_CACHE_HOME", "POCL_CACHE_DIR"})
-            ::setenv(name, folder_.path().c_str(), 1);
-    }
-
-  private:
-    TemporaryFolder folder_;
 };
 
 std::string per_cent(const FeatureRun& run) {

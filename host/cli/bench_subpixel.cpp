@@ -4,13 +4,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
 
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
-#include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
 #include "cli/experiment.h"
@@ -70,95 +68,72 @@ std::vector<PanelView> displays_of(const SubpixelOptions& o) {
     return displays;
 }
 
-ToneMap tone_map_of(const std::string& name) {
-    static const std::map<std::string, ToneMap> maps = {{"none", ToneMap::none},
-                                                        {"aces", ToneMap::aces},
-                                                        {"agx", ToneMap::agx},
-                                                        {"khronos", ToneMap::khronos}};
-    return maps.at(name);
+/// The .exr pictures of a folder, by name.
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+    std::error_code absent;
+    if (!fs::is_directory(folder, absent))
+        throw Error(Exit::scene, "--synthetic " + folder.string() + ": there is no such folder.");
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".exr") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    if (files.empty()) throw Error(Exit::scene, folder.string() + ": there is no .exr file in it.");
+    return files;
 }
 
-class Bench {
+/// What is named on the command line, and the device that the first of them asks for.
+class Subjects {
   public:
-    Bench(const SubpixelOptions& o, SubpixelReport& report) : o_(o), report_(report) {}
-
-    void run() {
+    explicit Subjects(const SubpixelOptions& o) : o_(o) {
         std::vector<NamedOptions> scenes;
-        for (const std::string& text : o_.scenes) scenes.push_back(parse_scene(text));
-        std::string synthetic = o_.synthetic;
+        for (const std::string& text : o.scenes) scenes.push_back(parse_scene(text));
+        std::string synthetic = o.synthetic;
         if (scenes.empty() && synthetic.empty()) {
             scenes = usual_scenes();
             synthetic = usual_pictures();
         }
-        for (const PanelView& view : report_.plan.displays) displays_.push_back(subpixel_display(view));
         for (const NamedOptions& scene : scenes)
-            if (!guard_.interrupted()) render(scene);
-        if (!synthetic.empty()) sample(synthetic);
+            all_.push_back({scene.name, [this, request = request_of(scene)] { return rendered(request); }});
+        if (synthetic.empty()) return;
+        for (const fs::path& path : pictures_in(synthetic))
+            all_.push_back({path.stem().string(), [this, path] { return sampled(path); }});
     }
+    Subjects(const Subjects&) = delete;
+    Subjects& operator=(const Subjects&) = delete;
 
+    const std::vector<SubpixelSubject>& all() const { return all_; }
+    /// Null: nothing was measured.
     const DeviceInfo* device() const { return device_ ? &device_->info() : nullptr; }
 
   private:
-    bool go_on(const std::string& done) {
-        detail(done);
-        return !guard_.interrupted();
-    }
-
-    Device& open(const RenderRequest& options) {
-        if (!device_) device_ = std::make_unique<Device>(open_device(options));
-        return *device_;
-    }
-
-    void render(const NamedOptions& name) {
-        inform("Scene " + name.name);
-        NamedOptions sized = name;  // the scene's own size is for other benches
-        sized.arguments.insert(sized.arguments.end(), {"--size", o_.size});
-        if (!o_.device.empty()) sized.arguments.insert(sized.arguments.end(), {"--device", o_.device});
-        const RenderRequest options = render_options({}, sized, {});
-        const Scene scene = load_scene(options);
-        RenderedView view;
-        view.scene = &scene, view.settings = settings_of(options, scene);
-        view.exposure_ev = float(options.style.exposure), view.tone_map = tone_map_of(options.style.tone_map);
-        view.samples = o_.samples, view.reference_spp = o_.reference_spp;
-        const auto source = rendered_source(open(options), view);
-        run_subpixel(
-            report_.plan, displays_, name.name, *source, [this](const std::string& s) { return go_on(s); },
-            report_.rows);
-    }
-
-    /// The pictures of a folder, many samples a pixel.
-    void sample(const fs::path& folder) {
-        std::error_code absent;
-        if (!fs::is_directory(folder, absent))
-            throw Error(Exit::scene, "--synthetic " + folder.string() + ": there is no such folder.");
-        std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(folder))
-            if (entry.path().extension() == ".exr") files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
-        if (files.empty()) throw Error(Exit::scene, folder.string() + ": there is no .exr file in it.");
-        for (const fs::path& path : files) {
-            if (guard_.interrupted()) return;
-            const unsigned n = o_.synthetic_samples;
-            inform("Picture " + path.stem().string());
-            RgbImage picture = display_of(path.string(), read_picture(path));
-            const uvec2 size{picture.width / n * n, picture.height / n * n};
-            if (picture.rgb.empty() || size != uvec2(picture.width, picture.height))
-                throw Error(
-                    Exit::scene,
-                    path.string() + format(": R, G and B, and a size that %u divides, are needed.", n));
-            if (!device_) device_ = std::make_unique<Device>(Device::open({.selector = o_.device}));
-            const auto source = sampled_source(*device_, std::move(picture), n);
-            run_subpixel(
-                report_.plan, displays_, path.stem().string(), *source,
-                [this](const std::string& s) { return go_on(s); }, report_.rows);
-        }
-    }
-
     const SubpixelOptions& o_;
-    SubpixelReport& report_;
-    std::vector<SubpixelDisplay> displays_;
+    std::vector<SubpixelSubject> all_;
     std::unique_ptr<Device> device_;
-    const InterruptGuard guard_;
+
+    RenderRequest request_of(NamedOptions scene) const {
+        // the scene's own size is for other benches
+        scene.arguments.insert(scene.arguments.end(), {"--size", o_.size});
+        if (!o_.device.empty()) scene.arguments.insert(scene.arguments.end(), {"--device", o_.device});
+        return render_options({}, scene, {});
+    }
+
+    std::unique_ptr<SubpixelSource> rendered(const RenderRequest& request) {
+        if (!device_) device_ = std::make_unique<Device>(open_device(request));
+        const auto scene = std::make_shared<const Scene>(load_scene(request));
+        const DisplaySettings shown = display_settings(request.style, false);
+        return rendered_source(*device_, {.scene = scene,
+                                          .settings = settings_of(request, *scene),
+                                          .exposure_ev = shown.exposure_ev,
+                                          .tone_map = shown.tone_map,
+                                          .samples = o_.samples,
+                                          .reference_spp = o_.reference_spp});
+    }
+
+    std::unique_ptr<SubpixelSource> sampled(const fs::path& path) {
+        if (!device_) device_ = std::make_unique<Device>(Device::open({.selector = o_.device}));
+        return sampled_source(*device_, path.string(), display_of(path.string(), read_picture(path)),
+                              o_.synthetic_samples);
+    }
 };
 
 Exit run(const SubpixelOptions& o) {
@@ -166,22 +141,31 @@ Exit run(const SubpixelOptions& o) {
         if (!path.empty()) check_writable(path);
     if (!o.folder.empty()) fs::create_directories(o.folder);
     SubpixelReport report{{displays_of(o), o.rays, o.repetitions, o.seed}, {}, command_words(), date_words()};
-    Bench bench(o, report);
-    bench.run();
+    Subjects subjects(o);
+    const InterruptGuard guard;
+    run_subpixel(
+        report.plan, subjects.all(),
+        [&](const std::string& done) {
+            detail(done);
+            return !guard.interrupted();
+        },
+        report.rows);
     if (o.json != "-" && o.csv != "-") std::fputs(summary_of(report).c_str(), stdout);
     const auto write_csv = [&](const fs::path& path) { write_file(path, csv_of(report)); };
     if (o.csv == "-")
         std::fputs(csv_of(report).c_str(), stdout);
     else if (!o.csv.empty())
         write_csv(o.csv);
-    if (!o.json.empty()) write_report(o.json, "bench-subpixel", bench.device(), rows_of(report));
+    if (!o.json.empty()) write_report(o.json, "bench-subpixel", subjects.device(), rows_of(report));
     if (!o.folder.empty()) {
         const fs::path folder = o.folder;
         write_csv(folder / "rows.csv");
-        write_report((folder / "report.json").string(), "bench-subpixel", bench.device(), rows_of(report));
+        write_report((folder / "report.json").string(), "bench-subpixel", subjects.device(), rows_of(report));
         write_subpixel_report(folder, report);
     }
-    return Exit::done;
+    if (!guard.interrupted()) return Exit::done;
+    inform("Stopped early: what was measured until then is above.");
+    return Exit::interrupted;
 }
 
 }  // namespace

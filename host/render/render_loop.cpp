@@ -5,14 +5,13 @@
 #include <numeric>
 
 #include "render/adaptive.h"
+#include "render/launcher.h"
 #include "render/renderer_state.h"
 #include "scene/film_sets.h"
 
 namespace triad {
 namespace {
 
-/// Of a launch: watchdogs, cancelling and progress want short ones, overhead long ones.
-constexpr double launch_seconds = 0.05;
 /// Launches between two reports, where one sample per pixel takes no longer.
 constexpr double launches_per_pass = 4;
 /// Samples of a pixel in one launch at most.
@@ -33,6 +32,7 @@ class RenderLoop {
           schedule_(goal_, unsigned(film().bins())),
           tiles_(tile_count(film().width, film().height)),
           pixels_(set_pixels(film().width, film().height)),
+          launcher_(state.tracers, pixels_),
           have_(pixels_.size()),
           ranges_before_(film().ranges),
           samples_before_(double(film().sample_count())) {
@@ -50,7 +50,7 @@ class RenderLoop {
                 look();
             }
             reach(wanted_at(*end));
-            if (interrupted_) break;
+            if (interrupted_ || cut_) break;
             if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
             if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
         }
@@ -58,8 +58,8 @@ class RenderLoop {
         if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
         const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
         s_.store.set_ranges(with_before(range));
-        return {range, interrupted_ ? Stop::interrupt : schedule_.stop_reason(), rendered, trend_.slope(),
-                perceived_noise_};
+        const Stop stop = interrupted_ ? Stop::interrupt : cut_ ? Stop::time : schedule_.stop_reason();
+        return {range, stop, rendered, trend_.slope(), perceived_noise_};
     }
 
   private:
@@ -70,12 +70,16 @@ class RenderLoop {
     Trend trend_;  ///< of every estimate; the schedule decides by those at the ends of rounds alone
     const std::size_t tiles_;
     const std::vector<std::uint32_t> pixels_;  ///< of each set
+    Launcher launcher_;
     SetSamples have_;
     const std::vector<SampleRange> ranges_before_;
     const double samples_before_;
     SetErrors set_errors_;     ///< the latest
     std::uint64_t total_ = 0;  ///< samples over all pixels
     bool interrupted_ = false;
+    /// Photons came with a sample of some tiles alone. Time may be left, where tiles took less than was
+    /// foreseen; but photons of a further sample would be another one's in these tiles.
+    bool cut_ = false;
     const RenderClock::time_point start_ = RenderClock::now();
     double next_estimate_ = 0.25;
     double relmse_ = -1;
@@ -92,13 +96,6 @@ class RenderLoop {
     const Film& film() const { return s_.film(); }
     PhotonTracer& photons() { return s_.tracers.front()->photons(); }
     void gather() { s_.store.gather(s_.tracers); }
-
-    /// Samples that all tracers trace in a second; 0: nothing was measured yet.
-    double pace() const {
-        double sum = 0;
-        for (const auto& tracer : s_.tracers) sum += tracer->pace;
-        return sum;
-    }
 
     double seconds() const { return seconds_since(start_); }
     double samples() const { return double(total_) / double(film().pixels()); }
@@ -122,11 +119,11 @@ class RenderLoop {
 
     /// Renders pass by pass until every set holds what is wanted, or it is time to stop.
     void reach(const SetSamples& wanted) {
-        while (!interrupted_ && !schedule_.time_is_up(samples(), seconds())) {
+        while (!interrupted_ && !cut_ && !schedule_.time_is_up(samples(), seconds())) {
             std::uint64_t waiting = 0;
             for (std::size_t i = 0; i < have_.size(); ++i) waiting += (wanted[i] > have_[i]) * pixels_[i];
             if (waiting == 0) return;
-            const double fit = pace() * launches_per_pass * launch_seconds / double(waiting);
+            const double fit = launcher_.pace() * launches_per_pass * launch_seconds / double(waiting);
             if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
             if (goal_.follow && seconds() >= next_estimate_) estimate(false);
             interrupted_ = !report_(progress());
@@ -169,9 +166,13 @@ class RenderLoop {
         double share = 1;
         if (may_be_cut) {
             std::uint64_t items = 0;
-            for (const dev::TileWork& w : work) items += samples_of(w);
-            const double paths = double(items) / pace(), photon_time = run * photon_seconds_,
+            for (const dev::TileWork& w : work) items += launcher_.samples_of(w);
+            const double paths = double(items) / launcher_.pace(), photon_time = run * photon_seconds_,
                          left = schedule_.time_left(seconds());
+            if (const auto bins = std::uint32_t(film().bins()); run > bins && left < paths + photon_time) {
+                for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = bins;
+                return pass_with_photons(std::move(work), may_be_cut);  // fewer samples rather than tiles
+            }
             // as many photons in proportion as tiles, but enough of them
             double tiles = std::min(left / (paths + photon_time), 1.0);
             share = std::max(tiles, least_photon_share);
@@ -188,7 +189,8 @@ class RenderLoop {
             for (std::size_t done = 0; done < work.size();) done += launch(work, done, i, may_be_cut);
         }
         if (may_be_cut) photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
-        return work.size() == all;
+        cut_ = work.size() < all;
+        return !cut_;
     }
 
     void trace_photons(std::uint64_t sample, double share) {
@@ -217,46 +219,18 @@ class RenderLoop {
         return i * step % tiles_;
     }
 
-    /// Samples that a tile's work adds up to.
-    std::uint64_t samples_of(const dev::TileWork& w) const {
-        return std::uint64_t(w.sample_count[0]) * pixels_[2 * w.tile] +
-               std::uint64_t(w.sample_count[1]) * pixels_[2 * w.tile + 1];
-    }
-
     /// As much of work[first, ...) as takes launch_seconds, or the time left, on every tracer at once;
     /// `sample` samples on. Returns how many tiles that were.
     std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, std::uint32_t sample,
                        bool may_be_cut) {
         const double time =
             may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds())) : launch_seconds;
-        std::size_t next = first;
-        std::vector<std::uint64_t> shares;
-        const auto start = RenderClock::now();
-        for (auto& tracer : s_.tracers) {
-            if (next == work.size()) break;
-            const double fit = tracer->pace * time;
-            const std::size_t most = tracer->pace > 0 ? largest_launch : 16;
-            std::size_t n = 0;
-            std::uint64_t samples = 0;
-            while (next + n < work.size() && n < most &&
-                   (n == 0 || tracer->pace == 0 || double(samples) < fit))
-                samples += samples_of(work[next + n++]);
-            tracer->trace(next, n, goal_.samples.begin + sample);
-            shares.push_back(samples);
-            next += n;
-        }
-        for (std::size_t i = 0; i < shares.size(); ++i) {
-            Tracer& tracer = *s_.tracers[i];
-            tracer.finish();
-            const double rate = double(shares[i]) / std::max(seconds_since(start), 1e-6);
-            // Small launches are dominated by overhead and must not make the next ones smaller still.
-            tracer.pace = std::max(0.5 * (tracer.pace + rate), rate);
-            total_ += shares[i];
-        }
-        for (std::size_t i = first; i < next; ++i)
+        const Launcher::Launched done = launcher_.launch(work, first, goal_.samples.begin + sample, time);
+        total_ += done.samples;
+        for (std::size_t i = first; i < first + done.tiles; ++i)
             for (std::size_t set = 0; set < 2; ++set)
                 have_[2 * work[i].tile + set] += work[i].sample_count[set];
-        return next - first;
+        return done.tiles;
     }
 
     /// The film says what every pixel has, while estimates are made of it.

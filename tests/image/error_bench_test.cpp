@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bench/error_curves.h"
-#include "bench/error_runs.h"
+#include "bench/error_experiment.h"
 #include "display/resolve.h"
 #include "lit_room.h"
 
@@ -147,6 +147,7 @@ TEST(ErrorBench, a_wrong_picture_is_found) {
     EXPECT_TRUE(b.curves[0].right) << b.curves[0].verdict;
     EXPECT_FALSE(b.curves[1].right) << b.curves[1].verdict;
     EXPECT_FALSE(b.right());
+    EXPECT_EQ(b.wrong(), "scene, no fifth bounce");
     plan.own_references = true;
     EXPECT_TRUE(bench(plan, lit_room(1, false), cases, kept).right());
 }
@@ -184,6 +185,86 @@ TEST(ErrorBench, stops_between_passes_with_what_was_measured) {
     EXPECT_EQ(b.curves[0].points.size(), b.runs.size());
     EXPECT_TRUE(b.curves[0].right);
     EXPECT_TRUE(b.curves[0].verdict.starts_with("Not tested")) << b.curves[0].verdict;
+}
+
+/// Two scenes of one size, two settings, on the test's device.
+ErrorExperiment small_experiment() {
+    ErrorExperiment e;
+    e.plan = {.spp = 2, .repetitions = 2, .reference_spp = 8};
+    e.scenes = {{"lit", "lit.glb"}, {"again", "again.glb --size 16x16"}};
+    e.settings = {{"all light", ""}, {"three edges", "--max-depth 3"}};
+    e.device = [](std::size_t) -> Device& { return test_device(); };
+    e.load = [](std::size_t) {
+        Scene scene = lit_room(1, false);
+        validate(scene);
+        return scene;
+    };
+    e.prepare = [](std::size_t, std::size_t setting, const Scene&) {
+        ErrorCase c = make_case("", room_view(), 16);
+        c.settings.max_depth = setting == 0 ? 0 : 3;
+        return c;
+    };
+    return e;
+}
+
+TEST(ErrorExperiment, measures_every_setting_on_every_scene_and_names_them) {
+    Kept kept;
+    const ErrorBench b = run_experiment(small_experiment(), kept.host());
+    EXPECT_FALSE(b.interrupted);
+    EXPECT_EQ(b.repetitions, 2u);
+    ASSERT_EQ(b.scenes.size(), 2u);
+    EXPECT_EQ(b.scenes[1].options, "again.glb --size 16x16");
+    ASSERT_EQ(b.settings.size(), 2u);
+    EXPECT_EQ(b.settings[1].options, "--max-depth 3");
+    EXPECT_EQ(b.settings[1].device, test_device().info().name);
+    ASSERT_EQ(b.curves.size(), 4u);
+    const char* expected[4][2] = {
+        {"lit", "all light"}, {"lit", "three edges"}, {"again", "all light"}, {"again", "three edges"}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(b.curves[i].scene, expected[i][0]);
+        EXPECT_EQ(b.curves[i].setting, expected[i][1]);
+    }
+    EXPECT_EQ(b.runs.size(), 4u * 2 * 2) << "budgets of 1 and 2, two repetitions";
+    EXPECT_TRUE(b.changes.empty());
+}
+
+TEST(ErrorExperiment, compares_with_an_earlier_one) {
+    Kept kept;
+    ErrorExperiment e = small_experiment();
+    e.scenes.resize(1);
+    e.plan = {.spp = 4, .repetitions = 3, .reference_spp = 2048};
+    e.before = run_experiment(e, kept.host()).runs;
+    ASSERT_FALSE(e.before.empty());
+    for (ErrorRun& run : e.before) run.seconds *= 1e-3;
+    const ErrorBench b = run_experiment(e, kept.host());
+    ASSERT_EQ(b.changes.size(), 2u);
+    for (const ErrorChange& change : b.changes) EXPECT_GT(change.time_ratio.value, 10);
+    EXPECT_EQ(b.worse(), "lit, all light; lit, three edges");
+}
+
+TEST(ErrorExperiment, stops_after_the_scene_that_was_interrupted) {
+    Kept kept;
+    ErrorBenchHost host = kept.host();
+    host.go_on = [] { return false; };
+    const ErrorBench b = run_experiment(small_experiment(), host);
+    EXPECT_TRUE(b.interrupted);
+    EXPECT_EQ(b.scenes.size(), 1u);
+}
+
+TEST(ErrorExperiment, wants_different_names_before_anything_is_opened) {
+    for (const auto which : {&ErrorExperiment::scenes, &ErrorExperiment::settings}) {
+        ErrorExperiment e = small_experiment();
+        (e.*which)[1].name = (e.*which)[0].name;
+        e.device = [](std::size_t) -> Device& { throw std::logic_error("opened"); };
+        Kept kept;
+        try {
+            run_experiment(e, kept.host());
+            FAIL();
+        } catch (const Error& error) {
+            EXPECT_EQ(error.exit(), Exit::usage);
+            EXPECT_NE(std::string(error.what()).find((e.*which)[0].name), std::string::npos) << error.what();
+        }
+    }
 }
 
 }  // namespace
