@@ -26,7 +26,7 @@ Launcher::Launched Launcher::launch(const std::vector<dev::TileWork>& work, std:
         const std::size_t next = first + launched.tiles;
         if (next == work.size()) break;
         const double fit = tracer->pace * seconds;
-        const std::size_t most = tracer->pace > 0 ? largest_launch : 16;
+        const std::size_t most = tracer->pace > 0 ? tracer->most_tiles() : 16;
         std::size_t n = 0;
         std::uint64_t samples = 0;
         while (next + n < work.size() && n < most && (n == 0 || tracer->pace == 0 || double(samples) < fit))

@@ -20,9 +20,9 @@ FeaturePlanes feature_planes(Tracer& tracer, unsigned samples) {
                                     .pixel_count = 0,
                                     .sample_count = samples};
     const std::size_t items = tile_count(frame.crop[2], frame.crop[3]) * FILM_TILE_PIXELS;
-    const std::size_t chunk =
-        std::clamp<std::size_t>((std::size_t(1) << 20) / samples / FILM_TILE_PIXELS, 1, largest_launch) *
-        FILM_TILE_PIXELS;
+    const std::size_t chunk = std::clamp<std::size_t>((std::size_t(1) << 20) / samples / FILM_TILE_PIXELS, 1,
+                                                      largest_launch_items / FILM_TILE_PIXELS) *
+                              FILM_TILE_PIXELS;
     for (std::size_t pixel = 0; pixel < items; pixel += chunk) {
         own.first_pixel = std::uint32_t(pixel);
         own.pixel_count = std::uint32_t(std::min(chunk, items - pixel));

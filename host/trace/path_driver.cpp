@@ -22,6 +22,10 @@ class Mega : public PathDriver {
                     work.work_count * std::size_t(FILM_TILE_PIXELS));
     }
     std::uint64_t bytes() const override { return 0; }
+    std::size_t most_tiles() const override {
+        return device_.info().type == "cpu" ? largest_launch_items / FILM_TILE_PIXELS
+                                            : PathDriver::most_tiles();
+    }
 
   private:
     Device& device_;

@@ -2,6 +2,7 @@
 /// How a device follows paths: each to its end before the next, or many side by side, stage by stage. Films
 /// are the same bit for bit.
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,9 @@ class PathDriver {
     /// What trace() could not enqueue before results were there; waits for all of it but the last launch.
     virtual void finish() {}
     virtual std::uint64_t bytes() const = 0;  ///< of its own
+    /// Of one launch. PoCL compiles a kernel a second time for grids beyond 65,535 items; below, there is one
+    /// program for everything, and compiling is over before rendering begins.
+    virtual std::size_t most_tiles() const { return std::numeric_limits<std::size_t>::max(); }
 };
 
 /// Of the device's kind; compiles the kernels.

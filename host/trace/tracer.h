@@ -12,10 +12,6 @@
 
 namespace triad {
 
-/// Tiles of a launch at most. PoCL compiles a kernel a second time for grids beyond 65,535 items; below,
-/// there is one program for everything, and compiling is over before rendering begins.
-constexpr std::size_t largest_launch = largest_launch_items / FILM_TILE_PIXELS;
-
 class Tracer {
   public:
     /// Compiles the kernels, with a first, discarded launch, as some drivers compile at launches. `shape`: of
@@ -41,6 +37,7 @@ class Tracer {
     FilmPart& part() { return part_; }
     PhotonTracer& photons() { return photons_; }
     std::uint64_t bytes() const;
+    std::size_t most_tiles() const { return driver_->most_tiles(); }  ///< of one call of trace()
 
     /// Samples that it traces in a second, by what was measured last; 0: nothing was.
     double pace = 0;

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 constexpr unsigned width = 256, height = 248;
 /// All tiles fit into one launch, as renders launch them.
 constexpr std::size_t all_tiles = std::size_t(width) * height / FILM_TILE_PIXELS;
-static_assert(all_tiles <= largest_launch);
+static_assert(all_tiles * FILM_TILE_PIXELS <= largest_launch_items);
 /// Long enough for the last paths of a launch, which leave lanes and pools empty, to weigh as in renders.
 constexpr double launch_seconds = 0.03;
 constexpr std::uint32_t most_samples_per_launch = 256;
