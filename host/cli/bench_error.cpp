@@ -91,8 +91,7 @@ class Bench {
     const InterruptGuard guard_;
 
     RenderRequest parsed(const NamedOptions& scene, const NamedOptions& setting) const {
-        std::vector<std::string> common = CLI::detail::split_up("--size " + o_.size + " " + o_.common);
-        return render_options(common, scene, setting);
+        return render_options(words("--size " + o_.size + " " + o_.common), scene, setting);
     }
 
     Device& device_of(const RenderRequest& options) {
