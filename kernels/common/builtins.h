@@ -1,9 +1,9 @@
 /* fma, fabs, floor, ceil, sqrt and copysign as instructions: the compiler's own builtins where it knows them;
  * so too, where OpenCL's are not copied into their callers, loads and stores of vectors and the few functions
  * of integers that kernels use. OpenCL's are calls in some drivers (PoCL 6), which cost nanoseconds and keep
- * loops over work-items from being vectorised. Bits are the same (`triad check`, M11). Where all operands are
- * of one type they take vectors too, except copysign and sqrt with compilers that have them for scalars
- * alone.
+ * loops over work-items from being vectorised. Bits are the same (`triad check`, M11 to M13). Where all
+ * operands are of one type they take vectors too, except copysign and sqrt with compilers that have them for
+ * scalars alone.
  *
  * Some drivers have macros of these names. min, max and clamp of floats are ternaries of math.h, and
  * conversions are casts: no calls on any driver. */
