@@ -1,4 +1,5 @@
 // The kernels' own mathematics against double: the largest errors that kernels/common/math.h states.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -13,6 +14,8 @@ namespace triad {
 namespace {
 
 const char* const source = R"(#include "common/math.h"
+TRIAD_FUNCTION float stored4(float x) { float to[5]; vstore4((float4)(0.0f, 0.0f, 0.0f, x), 0, to + 1); return to[4]; }
+TRIAD_FUNCTION float stored8(float x) { float to[9]; vstore8((float8)(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, x), 0, to + 1); return to[8]; }
 __kernel void evaluate(__global float* out, __global const float* a, __global const float* b, uint count) {
     const uint i = get_global_id(0);
     if (i < count) out[i] = EXPRESSION;
@@ -232,6 +235,45 @@ void builtins_are_exact(Check& check) {
                     [&](std::size_t i) { return std::sqrt(std::abs(double(a[i]))); });
 }
 
+std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x); }
+
+void builtins_of_integers_are_exact(Check& check) {
+    const auto a = all_kinds(check.count(full / 16), 21), b = all_kinds(a.size() - 9, 22);
+    expect_bits(check, "(float)clz(as_uint(a[i]))", a, b,
+                [](float x, float) { return float(std::countl_zero(bits(x))); });
+    expect_bits(check, "(float)clz((ulong)as_uint(a[i]) << 20)", a, b,
+                [](float x, float) { return float(std::countl_zero(std::uint64_t(bits(x)) << 20)); });
+    expect_bits(check, "(float)popcount((ulong)as_uint(a[i]) << 32 | as_uint(b[i]))", a, b,
+                [](float x, float y) { return float(std::popcount(bits(x)) + std::popcount(bits(y))); });
+    expect_bits(check, "as_float((uint)min((ulong)as_uint(a[i]), (ulong)as_uint(b[i])))", a, b,
+                [](float x, float y) { return bits(x) < bits(y) ? x : y; });
+    expect_bits(check, "as_float((uint)max((ulong)as_uint(a[i]), (ulong)as_uint(b[i])))", a, b,
+                [](float x, float y) { return bits(x) < bits(y) ? y : x; });
+    // of numbers as large as 64 bits hold
+    expect_bits(check, "(float)(add_sat(as_int(a[i]) * 4294967296L, as_int(b[i]) * 4294967296L) >> 32)", a, b,
+                [](float x, float y) {
+                    return float(std::int32_t(std::clamp<std::int64_t>(
+                        std::int64_t(std::int32_t(bits(x))) + std::int32_t(bits(y)), INT32_MIN, INT32_MAX)));
+                });
+}
+
+void vectors_are_read_and_written_anywhere(Check& check) {
+    const auto a = all_kinds(check.count(full / 16), 23);
+    const auto same = [](float x, float) { return x; };
+    for (const char* last :
+         {"vload4(0, a + i - 3u).w", "vload8(0, a + i - 7u).s7", "vload16(0, a + i - 15u).sf",
+          "as_float(vload4(0, (const global uint*)a + i - 3u).w)",
+          "as_float(vload8(0, (const global uint*)a + i - 7u).s7)"})
+        expect_bits(check, std::string("i < 15u ? a[i] : ") + last, a, a, same);
+    expect_bits(check, "i < 15u ? a[i] : vload4(1, a + i - 7u).w", a, a, same);
+    expect_bits(
+        check,
+        "(float)(i < 8u ? (ushort)as_uint(a[i]) : vload16(0, (const global ushort*)a + 2u * i - 15u).sf)", a,
+        a, [](float x, float) { return float(bits(x) & 0xffff); });
+    expect_bits(check, "stored4(a[i])", a, a, same);
+    expect_bits(check, "stored8(a[i])", a, a, same);
+}
+
 }  // namespace
 
 void add_maths(std::vector<CheckCase>& cases) {
@@ -250,6 +292,8 @@ void add_maths(std::vector<CheckCase>& cases) {
             {"M9", "differences of products, in ulp", quick, differences_of_products},
             {"M10", "products and sums are not fused", quick, no_contraction},
             {"M11", "fma, fabs, floor, ceil, copysign and sqrt to the bit", quick, builtins_are_exact},
+            {"M12", "clz, popcount, add_sat, min and max to the bit", quick, builtins_of_integers_are_exact},
+            {"M13", "vectors are read and written anywhere", quick, vectors_are_read_and_written_anywhere},
         });
 }
 

@@ -44,7 +44,7 @@ std::vector<NamedOptions> named_settings(const BenchErrorOptions& o) {
 class Requests {
   public:
     explicit Requests(const BenchErrorOptions& o) : scenes_(named_scenes(o)), settings_(named_settings(o)) {
-        const std::vector<std::string> common = CLI::detail::split_up("--size " + o.size + " " + o.common);
+        const auto common = words("--size " + o.size + " " + o.common);
         for (const NamedOptions& scene : scenes_) {
             requests_.emplace_back();
             for (const NamedOptions& setting : settings_)

@@ -1,6 +1,7 @@
 #include "cli/experiment.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "base/error.h"
@@ -17,14 +18,28 @@ std::string trimmed(const std::string& text) {
     return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
 }
 
-/// Words as a shell reads them: quotes keep blanks.
+}  // namespace
+
 std::vector<std::string> words(const std::string& text) {
-    std::vector<std::string> all = CLI::detail::split_up(text);
+    std::vector<std::string> all;
+    bool within = false;
+    char quote = 0;
+    for (const char c : text) {
+        const bool quotes = quote ? c == quote : c == '\'' || c == '"';
+        if (!quotes && !quote && std::isspace(static_cast<unsigned char>(c))) {
+            within = false;
+            continue;
+        }
+        if (!within) all.emplace_back();
+        within = true;
+        if (quotes)
+            quote = quote ? 0 : c;
+        else
+            all.back() += c;
+    }
     std::erase(all, "");
     return all;
 }
-
-}  // namespace
 
 std::string NamedOptions::text() const {
     std::string line;

@@ -8,6 +8,10 @@
 
 namespace triad {
 
+/// Words as a shell reads them: quotes, single or double, keep blanks and go. (CLI11's own function for that
+/// keeps the quotes since 2.4.)
+std::vector<std::string> words(const std::string& text);
+
 /// A scene or a setting: a name and what is added to `triad render`.
 struct NamedOptions {
     std::string name;

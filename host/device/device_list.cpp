@@ -89,7 +89,7 @@ DeviceInfo describe(cl_device_id device, const std::string& platform) {
         info.settings.push_back(std::string(vectorizer_mode) + "=" + mode +
                                 (mode == std::string("1")
                                      ? " keeps this driver from vectorising across "
-                                       "work-items, where it computes wrong values"
+                                       "work-items, where it gets calls with vectors of three wrong"
                                      : " is set by the user; 1 is what makes this driver "
                                        "right"));
     info.usable = info.why_unusable.empty();
@@ -173,8 +173,9 @@ std::vector<Found> ask_drivers(std::vector<PlatformProblem>& problems) {
 
 std::vector<Found> find_devices(std::vector<PlatformProblem>& problems) {
     // Intel's runtime for CPUs reads this when it is loaded; no other driver knows it. Vectorising whole
-    // kernels across work-items, its default, makes Triad's several times slower (their vectors lie within a
-    // ray) and computes wrong values for some (docs/kernels.md). A value that the user has set stays.
+    // kernels across work-items, its default, makes Triad's several times slower in groups of 64 (their
+    // vectors lie within a ray) and gets calls with vectors of three wrong (docs/kernels.md). A value that
+    // the user has set stays.
     ::setenv(vectorizer_mode, "1", 0);
     const Peril peril(listing_note);
     problems = load_drivers();

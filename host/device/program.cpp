@@ -43,6 +43,7 @@ fs::path cache_path(const DeviceState& state, const std::string& text, const std
           std::string_view(info.name), std::string_view(info.driver), std::string_view(options),
           std::string_view(text)})
         key.add(part);
+    for (const std::string& setting : info.settings) key.add(setting);  // it decides what a driver makes
     return folder / "programs" / (key.hex() + ".bin");
 }
 

@@ -34,7 +34,8 @@ class Member {
     void only(std::initializer_list<const char*> names) const {
         if (!json_.is_object()) fail("is no object.");
         for (const auto& [name, value] : json_.items())
-            if (std::none_of(names.begin(), names.end(), [&](const char* known) { return name == known; }))
+            if (std::none_of(names.begin(), names.end(),
+                             [&name = name](const char* known) { return name == known; }))
                 fail("has an unknown member \"" + name + "\".");
     }
     double number() const {

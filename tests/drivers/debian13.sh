@@ -36,6 +36,7 @@ cp -L /etc/resolv.conf "$chroot/etc/resolv.conf"
 mkdir -p "$chroot/triad" "$chroot/shared/assets"
 find "$chroot/triad" -mindepth 1 -maxdepth 1 ! -name build -exec rm -rf {} +
 tar -C "$root" --exclude='./build*' --exclude=./.git --exclude=./.ccache -c . | tar -C "$chroot/triad" -x
+mount --bind "$chroot" "$chroot" # a mount point, so that a test within may make a namespace of its own
 mount -t proc proc "$chroot/proc"
 mount --rbind /sys "$chroot/sys"
 mount --rbind /dev "$chroot/dev"

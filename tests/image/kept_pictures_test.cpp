@@ -128,10 +128,10 @@ TEST_P(KeptPictures, show_what_they_showed) {
 INSTANTIATE_TEST_SUITE_P(Table, KeptPictures, testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
 
-const PictureCase& case_of(const std::string& name) {
+const PictureCase& case_of(std::string_view name) {
     for (const PictureCase& c : cases())
         if (c.name == name) return c;
-    throw std::out_of_range("there is no kept picture " + name);
+    throw std::out_of_range("there is no kept picture " + std::string(name));
 }
 
 TEST(KeptPictureFaults, a_half_that_is_two_percent_too_bright_is_found) {

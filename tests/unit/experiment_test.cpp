@@ -29,6 +29,13 @@ TEST(Experiment, scenes_are_files_or_names_with_options) {
     EXPECT_EQ(dusk.text(), "'my hall.glb' --env-strength 2 --env x.hdr");
 }
 
+TEST(Experiment, words_are_those_of_a_shell) {
+    using Words = std::vector<std::string>;
+    EXPECT_EQ(words("  --size\t8x8 "), (Words{"--size", "8x8"}));
+    EXPECT_EQ(words("--out='a b'.exr \"it's\" [x y]"), (Words{"--out=a b.exr", "it's", "[x", "y]"}));
+    EXPECT_EQ(words(" ''"), Words{});
+}
+
 TEST(Experiment, settings_may_go_without_a_name) {
     EXPECT_EQ(parse_setting("--roulette 1").name, "--roulette 1");
     EXPECT_EQ(parse_setting("plain:").name, "plain");
