@@ -91,32 +91,39 @@ class WaveStages : public PathDriver {
         arguments_ = pools_.begin(scene, work, count);
         device_.fill_zero(pools_.arrays().states);
         slots_ = count * POOL_SLOTS;
-        enqueue(first_rounds);
+        rounds_ = 0;
+        enqueue(expected_);
     }
 
     void finish() override {
-        for (std::uint32_t rounds = first_rounds; slots_ > 0; rounds = std::min(2 * rounds, most_rounds)) {
+        while (slots_ > 0) {
             std::array<std::uint32_t, 2> next;
             device_.read(pools_.arrays().next_pixel, next.data(), sizeof next);
-            if (next[1] == slots_)
+            if (next[1] == slots_) {
                 slots_ = 0;
-            else
-                enqueue(rounds);
+                expected_ = std::max(least_rounds, rounds_ * 3 / 4);
+            } else {
+                enqueue(std::clamp(rounds_ / 4, least_rounds, most_rounds));
+            }
         }
     }
     std::uint64_t bytes() const override { return pools_.bytes(); }
 
   private:
-    /// A round ends no path before its next edge: looking after every one would leave the device waiting.
-    static constexpr std::uint32_t first_rounds = 8, most_rounds = 64;
+    /// Between looks at what is left: looking after every one would leave the device waiting.
+    static constexpr std::uint32_t least_rounds = 8, most_rounds = 64;
 
     Device& device_;
     Pools pools_;
     std::vector<Kernel> stages_;  ///< of a round, in order
     Arguments arguments_;
-    std::uint32_t slots_ = 0;  ///< that have work, 0: all is done
+    std::uint32_t slots_ = 0;   ///< that have work, 0: all is done
+    std::uint32_t rounds_ = 0;  ///< that were enqueued for it
+    /// Of the next work, by the last: so many are enqueued before the host waits, which other devices need.
+    std::uint32_t expected_ = least_rounds;
 
     void enqueue(std::uint32_t rounds) {
+        rounds_ += rounds;
         for (std::uint32_t round = 0; round < rounds; ++round)
             for (const Kernel& stage : stages_) device_.run(stage, arguments_, slots_);
     }
