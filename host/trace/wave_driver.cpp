@@ -101,7 +101,7 @@ class WaveStages : public PathDriver {
             device_.read(pools_.arrays().next_pixel, next.data(), sizeof next);
             if (next[1] == slots_) {
                 slots_ = 0;
-                expected_ = std::max(least_rounds, rounds_ * 3 / 4);
+                expected_ = std::clamp(rounds_ * 3 / 4, least_rounds, 4 * most_rounds);
             } else {
                 enqueue(std::clamp(rounds_ / 4, least_rounds, most_rounds));
             }
