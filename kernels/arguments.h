@@ -57,15 +57,16 @@
 
 /* path/wave.cl and wave_stages.cl: what trace_paths takes, and pool_count pools of paths
  * (path/wave_stages.h), each with a part of every array. */
-#define TRACE_WAVE_LIST(ARRAY, OWNED, SHARED, VALUE)                                       \
-    TRACE_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)                                          \
-    OWNED(uint, states)      /* a plane of WAVE_* */                                       \
-    OWNED(uint, pixels)      /* a plane: of a slot, counted over the tiles of the work */  \
-    OWNED(uint, taken)       /* a plane: samples that this pixel has had */                \
-    OWNED(uint, paths)       /* POOL_PATH_PLANES */                                        \
-    OWNED(uint, hits)        /* POOL_HIT_PLANES */                                         \
-    OWNED(uint, pending)     /* POOL_LIGHT_PLANES */                                       \
-    SHARED(uint, next_pixel) /* of the work: slots take one after the other; idle slots */ \
+#define TRACE_WAVE_LIST(ARRAY, OWNED, SHARED, VALUE)                                              \
+    TRACE_PATHS_LIST(ARRAY, OWNED, SHARED, VALUE)                                                 \
+    OWNED(uint, states)      /* a plane of WAVE_* */                                              \
+    OWNED(uint, pixels)      /* a plane: of a slot, counted over the tiles of the work */         \
+    OWNED(uint, taken)       /* a plane: samples that this pixel has had */                       \
+    OWNED(uint, rays)        /* a plane, of wave_stages.cl: traced for a slot, not yet counted */ \
+    OWNED(uint, paths)       /* POOL_PATH_PLANES */                                               \
+    OWNED(uint, hits)        /* POOL_HIT_PLANES */                                                \
+    OWNED(uint, pending)     /* POOL_LIGHT_PLANES */                                              \
+    SHARED(uint, next_pixel) /* of the work: slots take one after the other; idle slots */        \
     VALUE(uint, pool_count)
 
 /* path/record.cl: samples [first_sample, first_sample + sample_count) of the pixel (x, y) of the crop. */

@@ -14,6 +14,7 @@ class Pools {
     Pools(Device& device, std::uint32_t count) : device_(device) {
         arguments_.pool_count = count;
         arguments_.states = planes(1), arguments_.pixels = planes(1), arguments_.taken = planes(1);
+        arguments_.rays = planes(1);
         arguments_.paths = planes(POOL_PATH_PLANES), arguments_.hits = planes(POOL_HIT_PLANES);
         arguments_.pending = planes(POOL_LIGHT_PLANES);
         arguments_.next_pixel = device.allocate_array<std::uint32_t>(2);

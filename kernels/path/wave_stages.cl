@@ -19,15 +19,26 @@
     const WaveWork list = {&local_frame, work + first_work, work_count * FILM_TILE_PIXELS, \
                            ((ulong)first_sample_high << 32) | first_sample_low};           \
     const WaveFilm film = {sums, half_sums, samples, first_pixel};                         \
-    const Pool pool = pool_at(item, states, pixels, taken, paths, hits, pending);          \
+    const Pool pool = pool_at(item, states, pixels, taken, rays, paths, hits, pending);    \
     Tally tally = tally_start();                                                           \
     (void)list, (void)film, (void)tally, (void)next_pixel, (void)counters;
+
+/* Rays are counted for each slot, and added up when it has nothing to do any more: else every item of these
+ * launches would add to one word. */
+#define WAVE_COUNT_RAYS                                   \
+    do {                                                  \
+        if (tally.rays != 0u) pool.rays[i] += tally.rays; \
+        tally.rays = 0u;                                  \
+    } while (0)
 
 /* Adds samples to the film that the work names. next_pixel[1]: slots that have nothing to do any more. */
 kernel void wave_end_paths(WAVE_STAGE_PARAMETERS) {
     WAVE_STAGE
-    if (pool.states[i] != WAVE_IDLE && wave_end(&scene, &list, &film, &pool, i, next_pixel, &tally))
+    if (pool.states[i] == WAVE_NEW) pool.rays[i] = 0u;
+    if (pool.states[i] != WAVE_IDLE && wave_end(&scene, &list, &film, &pool, i, next_pixel, &tally)) {
         atomic_inc(next_pixel + 1);
+        tally.rays = pool.rays[i];
+    }
     tally_add(counters, &tally);
 }
 
@@ -39,6 +50,7 @@ kernel void wave_start_paths(WAVE_STAGE_PARAMETERS) {
 kernel void wave_intersect_edges(WAVE_STAGE_PARAMETERS) {
     WAVE_STAGE
     wave_edge(&scene, &pool, i, &tally);
+    WAVE_COUNT_RAYS;
     tally_add(counters, &tally);
 }
 
@@ -67,5 +79,6 @@ kernel void wave_scatter_paths(WAVE_STAGE_PARAMETERS) {
 kernel void wave_intersect_lights(WAVE_STAGE_PARAMETERS) {
     WAVE_STAGE
     wave_shadow(&scene, &pool, i, &tally);
+    WAVE_COUNT_RAYS;
     tally_add(counters, &tally);
 }

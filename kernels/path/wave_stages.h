@@ -14,18 +14,20 @@ typedef struct Pool {
     global uint* states;  /* WAVE_* */
     global uint* pixels;  /* of a slot, counted over the tiles of the launch */
     global uint* taken;   /* samples that this pixel has had */
+    global uint* rays;    /* traced and not yet counted, where stages are launches */
     global uint* paths;   /* PathState */
     global uint* hits;    /* Hit */
     global uint* pending; /* PendingLight */
 } Pool;
 
 TRIAD_FUNCTION_PER_CALL Pool pool_at(size_t pool, global uint* states, global uint* pixels,
-                                     global uint* taken, global uint* paths, global uint* hits,
-                                     global uint* pending) {
+                                     global uint* taken, global uint* rays, global uint* paths,
+                                     global uint* hits, global uint* pending) {
     const size_t first = pool * POOL_PLANE;
     const Pool p = {states + first,
                     pixels + first,
                     taken + first,
+                    rays + first,
                     paths + first * POOL_PATH_PLANES,
                     hits + first * POOL_HIT_PLANES,
                     pending + first * POOL_LIGHT_PLANES};
