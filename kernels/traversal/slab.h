@@ -18,18 +18,26 @@ typedef struct SlabRay {
                         8 */
 } SlabRay;
 
+/* A component of zero becomes 2^-40 of the largest: finite, so that no plane yields 0 * inf, far below the
+ * padding of the boxes, and relative, so that scaling by a power of two changes no bit. */
+TRIAD_FUNCTION float slab_inverse(float component, float least) {
+    return 1.0f / copysign(math_max(fabs(component), least), component);
+}
+
+/* Axis by axis, not in a loop: what a variable indexes lies in memory, and CPUs that write a few floats there
+ * and read them at once as a vector wait (5 % of a path). */
 TRIAD_FUNCTION SlabRay slab_ray(const float origin[3], const float direction[3]) {
-    /* A component of zero becomes 2^-40 of the largest: finite, so that no plane yields 0 * inf, far below
-     * the padding of the boxes, and relative, so that scaling by a power of two changes no bit. */
-    const float x = fabs(direction[0]), y = fabs(direction[1]), z = fabs(direction[2]);
-    const float least = math_max(x, math_max(y, z)) * 0x1p-40f;
+    const float least = math_max(fabs(direction[0]), math_max(fabs(direction[1]), fabs(direction[2])));
     SlabRay ray;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float inverse = 1.0f / copysign(math_max(fabs(direction[axis]), least), direction[axis]);
-        ray.inverse[axis] = inverse;
-        ray.offset[axis] = -origin[axis] * inverse;
-        ray.near_row[axis] = (uint)axis * 16u + (inverse < 0.0f ? 8u : 0u);
-    }
+    ray.inverse[0] = slab_inverse(direction[0], least * 0x1p-40f);
+    ray.inverse[1] = slab_inverse(direction[1], least * 0x1p-40f);
+    ray.inverse[2] = slab_inverse(direction[2], least * 0x1p-40f);
+    ray.offset[0] = -origin[0] * ray.inverse[0];
+    ray.offset[1] = -origin[1] * ray.inverse[1];
+    ray.offset[2] = -origin[2] * ray.inverse[2];
+    ray.near_row[0] = ray.inverse[0] < 0.0f ? 8u : 0u;
+    ray.near_row[1] = ray.inverse[1] < 0.0f ? 24u : 16u;
+    ray.near_row[2] = ray.inverse[2] < 0.0f ? 40u : 32u;
     return ray;
 }
 

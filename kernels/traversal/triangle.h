@@ -33,9 +33,14 @@ typedef struct TriangleHits {
     TriangleFloat t, u, v;
 } TriangleHits;
 
-/* One of three by an index: not read from an array, which would be one in memory. */
+/* One of three by an index. Where items are the lanes it is not read from an array, which would be one in
+ * memory; a CPU reads it from there sooner than it has chosen. */
 TRIAD_FUNCTION float triangle_pick(uint axis, const float values[3]) {
+#if TRIAD_BVH4
     return axis == 0u ? values[0] : axis == 1u ? values[1] : values[2];
+#else
+    return values[axis];
+#endif
 }
 
 TRIAD_FUNCTION TriangleRay triangle_ray(const float origin[3], const float direction[3]) {
