@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
 
 #include "io/io.h"
@@ -42,6 +43,26 @@ std::vector<float> layer(const Picture& picture, const std::string& prefix) {
 }
 
 }  // namespace
+
+const std::vector<KeptCase>& kept_cases() {
+    static const std::vector<KeptCase> all = [] {
+        std::vector<KeptCase> found;
+        std::ifstream file(TRIAD_SOURCE_DIR "/tests/image/pictures.txt");
+        for (std::string line; std::getline(file, line);) {
+            if (line.empty() || line[0] == '#') continue;
+            const std::size_t colon = line.find(':');
+            found.push_back({line.substr(0, colon), line.substr(colon + 1)});
+        }
+        return found;
+    }();
+    return all;
+}
+
+const KeptCase& kept_case(std::string_view name) {
+    for (const KeptCase& c : kept_cases())
+        if (c.name == name) return c;
+    throw std::out_of_range("there is no kept picture " + std::string(name));
+}
 
 void KeptPictureMaker::Moments::add(double value, bool is_first) {
     if (is_first) first = value;

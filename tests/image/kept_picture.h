@@ -4,12 +4,21 @@
 /// is the same in both.
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "metric/mean_test.h"
 #include "scene/film.h"
 
 namespace triad {
+
+/// A row of pictures.txt.
+struct KeptCase {
+    std::string name, options;  ///< of triad render
+};
+const std::vector<KeptCase>& kept_cases();
+/// Throws std::out_of_range for a name that there is not.
+const KeptCase& kept_case(std::string_view name);
 
 struct KeptPicture {
     unsigned width = 0, height = 0;

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include <cmath>
-#include <fstream>
 #include <random>
 
 #include "../device/device_fixture.h"
@@ -15,15 +14,13 @@
 #include "kept_picture.h"
 #include "kernels/types.h"
 #include "metric/statistics.h"
+#include "picture_films.h"
 #include "render/renderer.h"
 #include "session/prepare.h"
 
 namespace triad {
 
-struct PictureCase {
-    std::string name, options;
-};
-void PrintTo(const PictureCase& c, std::ostream* out) { *out << c.options; }
+void PrintTo(const KeptCase& c, std::ostream* out) { *out << c.options; }
 
 namespace {
 
@@ -31,53 +28,17 @@ constexpr unsigned spp_kept = 32, films_kept = 40, films_compared = 12;
 constexpr std::uint32_t first_kept_seed = 1'000'000, first_compared_seed = 1;
 constexpr double family = 1e-6;
 
-/// pictures.txt: "name: options" in lines, # for comments.
-const std::vector<PictureCase>& cases() {
-    static const std::vector<PictureCase> all = [] {
-        std::vector<PictureCase> found;
-        std::ifstream file(TRIAD_SOURCE_DIR "/tests/image/pictures.txt");
-        for (std::string line; std::getline(file, line);) {
-            if (line.empty() || line[0] == '#') continue;
-            const std::size_t colon = line.find(':');
-            found.push_back({line.substr(0, colon), line.substr(colon + 1)});
-        }
-        return found;
-    }();
-    return all;
-}
-
-/// Gives films of one case and of consecutive seeds to `receive`. Returns whether pixels of a film share
-/// noise: where photons are gathered, one of them shines on many.
-template <class Receive>
-bool render(const PictureCase& c, std::uint32_t first_seed, unsigned films, unsigned spp,
-            const Receive& receive) {
-    const RenderRequest options = scene_options(c.name, c.options);
-    const Scene scene = load_scene(options);
-    RenderSettings settings = settings_of(options, scene);
-    if (!options.size) settings.width = 64, settings.height = 36;
-    settings.seed = first_seed;
-    Renderer renderer(test_device(), scene, settings);
-    for (unsigned i = 0; i < films; ++i) {
-        if (i > 0) renderer.restart(first_seed + i);
-        renderer.render({0, spp}, [](const Progress&) { return true; });
-        const Film film = renderer.film();
-        EXPECT_EQ(film.counters[COUNTER_NOT_FINITE], 0u);
-        receive(film);
-    }
-    return renderer.packed().integrator.starts_with("photon");
-}
-
 struct Rendered {
     KeptPicture picture;
     TileMeans means;
 };
 
 /// Films to compare with a kept picture, of as many samples as its own, their left half times `factor`.
-Rendered render_to_compare(const PictureCase& c, const KeptPicture& kept, double factor = 1) {
+Rendered render_to_compare(const KeptCase& c, const KeptPicture& kept, double factor = 1) {
     const unsigned spp = unsigned(std::lround(kept.samples / kept.films));
     KeptPictureMaker maker;
     TileMeans means;
-    const bool shared = render(c, first_compared_seed, films_compared, spp, [&](Film film) {
+    const bool shared = render_films(c, first_compared_seed, films_compared, spp, [&](Film film) {
         for (std::size_t i = 0; i < film.sums.size() && factor != 1; ++i)
             if (i / FILM_CHANNELS % film.width < film.width / 2)
                 film.sums[i] = std::llround(double(film.sums[i]) * factor);
@@ -90,11 +51,11 @@ Rendered render_to_compare(const PictureCase& c, const KeptPicture& kept, double
 }
 
 MeanTest compare(const TileMeans& found, const KeptPicture& kept) {
-    return test_means(found, tile_means(kept), sidak(family, cases().size()));
+    return test_means(found, tile_means(kept), sidak(family, kept_cases().size()));
 }
 
 /// What is wrong and where, with a picture of the differences in this folder; empty: nothing.
-std::string fault(const PictureCase& c, const std::filesystem::path& folder, double factor = 1) {
+std::string fault(const KeptCase& c, const std::filesystem::path& folder, double factor = 1) {
     const KeptPicture kept = load_kept_picture(kept_picture_file(c.name));
     const Rendered found = render_to_compare(c, kept, factor);
     const MeanTest test = compare(found.means, kept);
@@ -104,10 +65,10 @@ std::string fault(const PictureCase& c, const std::filesystem::path& folder, dou
     return c.name + ": " + test.sentence + "\nWhere: the layers error.R, G, B of " + map.string();
 }
 
-void renew_picture(const PictureCase& c) {
+void renew_picture(const KeptCase& c) {
     KeptPictureMaker maker;
     const bool shared =
-        render(c, first_kept_seed, films_kept, spp_kept, [&](const Film& film) { maker.add(film); });
+        render_films(c, first_kept_seed, films_kept, spp_kept, [&](const Film& film) { maker.add(film); });
     const KeptPicture kept = maker.make(shared);
     const auto file = kept_picture_file(c.name);
     const std::string verdict =
@@ -116,28 +77,22 @@ void renew_picture(const PictureCase& c) {
     save(file, kept);
 }
 
-class KeptPictures : public testing::TestWithParam<PictureCase> {};
+class KeptPictures : public testing::TestWithParam<KeptCase> {};
 
 TEST_P(KeptPictures, show_what_they_showed) {
-    const PictureCase& c = GetParam();
+    const KeptCase& c = GetParam();
     if (const auto reason = why_not(c.options)) GTEST_SKIP() << *reason;
     if (renewing()) return renew_picture(c);
     EXPECT_EQ(fault(c, std::filesystem::absolute("kept-pictures")), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, KeptPictures, testing::ValuesIn(cases()),
+INSTANTIATE_TEST_SUITE_P(Table, KeptPictures, testing::ValuesIn(kept_cases()),
                          [](const auto& info) { return info.param.name; });
-
-const PictureCase& case_of(std::string_view name) {
-    for (const PictureCase& c : cases())
-        if (c.name == name) return c;
-    throw std::out_of_range("there is no kept picture " + std::string(name));
-}
 
 TEST(KeptPictureFaults, a_half_that_is_two_percent_too_bright_is_found) {
     const TemporaryFolder folder;
     for (const char* name : {"cornell", "page", "knot", "hundred_million", "glass_by_photons"}) {
-        const PictureCase& c = case_of(name);
+        const KeptCase& c = kept_case(name);
         if (why_not(c.options)) continue;
         EXPECT_NE(fault(c, folder / "", 1.02), "") << name;
     }
@@ -145,7 +100,7 @@ TEST(KeptPictureFaults, a_half_that_is_two_percent_too_bright_is_found) {
 
 TEST(KeptPictureFaults, the_map_shows_where) {
     const TemporaryFolder folder;
-    const PictureCase& c = case_of("knot");
+    const KeptCase& c = kept_case("knot");
     const std::string said = fault(c, folder / "", 1.1);
     const Picture map = read_picture(said.substr(said.rfind(' ') + 1));
     const std::vector<float>& error = map.find("error.G")->values;
