@@ -73,7 +73,8 @@ TEST(Perceived, equal_flat_pictures_have_no_error_but_the_stripes) {
 
 TEST(Perceived, a_change_of_lightness_is_its_size) {
     // Y up by .01: 1.16 units of lightness, none of colour.
-    const PerceivedMetric metric(named("off"), flat(12 * 3, 9 * 3, vec3(0.2f)), 3, {.border = 2});
+    const PerceivedMetric metric(named("off"), flat(12 * 3, 9 * 3, vec3(0.2f)), 3,
+                                 {.border = 2, .repeats = true});
     const PerceivedError error = metric.of(flat(12, 9, vec3(0.21f)));
     EXPECT_NEAR(error.lightness, 1.16, 1e-4);
     EXPECT_NEAR(error.colour, 0, 1e-4);
@@ -242,6 +243,26 @@ TEST(PublishedErrors, of_other_panels_eyes_and_distances_are_found_again) {
          5.05);  // the wrong panel: worse than the full pixel's 3.03
 }
 
+/// Drives of a picture that repeats, refined as if it went on for a while.
+RgbImage refined_again(const RgbImage& asked, const RefineStencil& stencil) {
+    constexpr unsigned more = 24;
+    RgbImage large{asked.width + 2 * more, asked.height + 2 * more, {}},
+        result{asked.width, asked.height, {}};
+    for (unsigned y = 0; y < large.height; ++y)
+        for (unsigned x = 0; x < large.width; ++x) {
+            const unsigned from_x = (x + asked.width - more) % asked.width,
+                           from_y = (y + asked.height - more) % asked.height;
+            const auto rgb = asked.rgb.begin() + (from_y * asked.width + from_x) * 3;
+            large.rgb.insert(large.rgb.end(), rgb, rgb + 3);
+        }
+    large = refined(large, stencil, 5);
+    for (unsigned y = 0; y < result.height; ++y) {
+        const auto row = large.rgb.begin() + ((y + more) * large.width + more) * 3;
+        result.rgb.insert(result.rgb.end(), row, row + result.width * 3);
+    }
+    return result;
+}
+
 // What lies beyond a picture is not known, and must not decide: the number of a picture alone is that of the
 // same pixels where the picture goes on (there are copies of it all around), whose drives know what follows.
 TEST(Borders, tell_nothing_of_what_lies_beyond) {
@@ -259,7 +280,9 @@ TEST(Borders, tell_nothing_of_what_lies_beyond) {
                         .ppd = ppd, .border = perceived_border(ppd), .repeats = again};
                     const RgbImage asked = on_film(picture, table, again ? Beyond::again : Beyond::mirrored);
                     return PerceivedMetric(panel, picture, 12, choice)
-                        .of(refine ? refined(asked, stencil, 5) : clamped(asked))
+                        .of(!refine ? clamped(asked)
+                            : again ? refined_again(asked, stencil)
+                                    : refined(asked, stencil, 5))
                         .error;
                 };
                 for (const bool refine : {true, false}) {
