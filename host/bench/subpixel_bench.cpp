@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <set>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -92,6 +93,10 @@ class Run {
         std::vector<std::vector<Scored>> all(displays_.size());
         for (std::size_t d = 0; d < displays_.size(); ++d)
             for (const SubpixelMethod& m : methods[d]) all[d].push_back({m.name, rays, 0, 0, {}});
+        // Programs are compiled, and devices woken, before anything is timed.
+        for (const auto& of_display : methods)
+            for (const SubpixelMethod& m : of_display)
+                if (warm_.insert(m.name).second) source_.shoot(m, 1, plan_.seed);
         for (unsigned repetition = 0; repetition < plan_.repetitions; ++repetition) {
             source_.forget();
             for (std::size_t d = 0; d < displays_.size(); ++d) {
@@ -121,6 +126,7 @@ class Run {
     const std::function<bool(const std::string&)>& go_on_;
     std::vector<SubpixelRow>& rows_;
     std::deque<TileMetric> metrics_;  // they cannot be moved
+    std::set<std::string> warm_;      ///< methods that ran
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ const char* eye_name(Eye eye);
 /// with people have confirmed; a little of the others keeps patterns in check that it is blind to, and costs
 /// it nearly nothing (docs/decisions/subpixel.md).
 struct EyeShares {
-    double scielab = 1, sharp = 0.02, flip = 0.1;
+    double scielab = 1, sharp = 0.03, flip = 0.15;
 };
 
 /// Opponent colours from CIE XYZ relative to white (Y of white = 1).

@@ -140,7 +140,7 @@ PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
                                              size_text(drives).c_str(), s.width, s.height));
     RgbImage whole = s.around;
     if (!s.choice.repeats) put_in_frame(drives, whole);
-    const RgbImage light = simulate_panel(s.panel, s.choice.repeats ? drives : whole, s.samples);
+    const RgbImage light = simulate_panel(s.panel, s.choice.repeats ? drives : whole, s.samples, true);
     const Planes shown = s.seen(light);
     const dmat3 axes = linear_lab_of_xyz(s.white);
     const auto at = [](const Planes& p, std::size_t i) { return dvec3(p[0][i], p[1][i], p[2][i]); };
