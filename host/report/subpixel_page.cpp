@@ -9,6 +9,7 @@
 #include "report/html.h"
 #include "report/subpixel_plots.h"
 #include "report/subpixel_report.h"
+#include "report/subpixel_sights.h"
 
 namespace fs = std::filesystem;
 
@@ -143,6 +144,8 @@ void write_subpixel_report(const fs::path& folder, const SubpixelReport& report)
             std::copy_if(on_display.begin(), on_display.end(), std::back_inserter(rows),
                          [&](const SubpixelRow& row) { return row.scene == scene; });
             html += "<h2>" + html_escape(scene) + "</h2>\n";
+            for (const SubpixelSight& sight : report.sights)
+                if (first && sight.scene == scene) html += sights_of(sight, view);
             html += first ? plots(folder, scene, rows, report.plan.rays) : "";
             for (const unsigned rays : report.plan.rays) html += table(rows, rays);
         }

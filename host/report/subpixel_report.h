@@ -13,6 +13,7 @@ struct SubpixelReport {
     SubpixelPlan plan;
     std::vector<SubpixelRow> rows;
     std::string command, date;  ///< for the page
+    std::vector<SubpixelSight> sights = {};
 };
 
 /// Comparisons with triad at equal rays.

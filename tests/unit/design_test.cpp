@@ -46,7 +46,7 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-// The tables of docs/subpixel.md: a prototype's, by another method (dense least squares on twelve samples per
+// Published tables: a prototype's, by another method (dense least squares on twelve samples per
 // pixel).
 
 TEST(Design, agrees_with_published_taps_of_the_rgb_stripe) {
