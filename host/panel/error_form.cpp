@@ -9,8 +9,8 @@
 namespace triad {
 namespace {
 
-/// Of what is seen at frequency 0: less than this, squared in the form, changes no digit that is used.
-constexpr double unseen = 1e-4;
+/// Of what is seen at frequency 0: less than this changes no digit that is used.
+constexpr double unseen = 1e-7;
 
 /// Along the three axes of one eye after the other.
 using Seen = std::vector<std::complex<double>>;
