@@ -67,12 +67,14 @@ inline RgbImage clamped(RgbImage drives) {
     return drives;
 }
 
-/// Steps of FISTA (Beck & Teboulle 2009) on the stencil's form around the drives, within [0, 1].
+/// The bounded refinement (kernels/subpixel/drives.cl).
 inline RgbImage refined(const RgbImage& drives, const RefineStencil& s, unsigned steps) {
-    RgbImage x = clamped(drives), y = x, next = x;
-    const int r = int(s.radius), w = int(x.width), h = int(x.height);
-    double t = 1;
+    const int r = int(s.radius), w = int(drives.width), h = int(drives.height);
+    std::vector<double> v(drives.rgb.size()), turned(v.size());
+    const auto cut = [](double x) { return std::clamp(x, 0.0, 1.0); };
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] = 2 * drives.rgb[i] - cut(drives.rgb[i]);
     for (unsigned step = 0; step < steps; ++step) {
+        for (std::size_t i = 0; i < v.size(); ++i) turned[i] = 2 * cut(v[i]) - v[i] - drives.rgb[i];
         for (int py = 0; py < h; ++py)
             for (int px = 0; px < w; ++px)
                 for (unsigned c = 0; c < 3; ++c) {
@@ -85,18 +87,15 @@ inline RgbImage refined(const RgbImage& drives, const RefineStencil& s, unsigned
                         for (int dx = -r; dx <= r; ++dx, weight += 3) {
                             if (px + dx < 0 || py + dy < 0 || px + dx >= w || py + dy >= h) continue;
                             const std::size_t i = std::size_t((py + dy) * w + px + dx) * 3;
-                            for (unsigned j = 0; j < 3; ++j)
-                                sum += double(weight[j]) * (y.rgb[i + j] - drives.rgb[i + j]);
+                            for (unsigned j = 0; j < 3; ++j) sum += double(weight[j]) * turned[i + j];
                         }
                     const std::size_t i = std::size_t(py * w + px) * 3 + c;
-                    next.rgb[i] = std::clamp(float(y.rgb[i] - s.step * sum), 0.0f, 1.0f);
+                    v[i] += drives.rgb[i] - cut(v[i]) + turned[i] - sum;
                 }
-        const double after = (1 + std::sqrt(1 + 4 * t * t)) / 2;
-        for (std::size_t i = 0; i < x.rgb.size(); ++i)
-            y.rgb[i] = float(next.rgb[i] + (t - 1) / after * (next.rgb[i] - x.rgb[i]));
-        x = next, t = after;
     }
-    return x;
+    RgbImage shown = drives;
+    for (std::size_t i = 0; i < v.size(); ++i) shown.rgb[i] = float(cut(v[i]));
+    return shown;
 }
 
 }  // namespace subpixel_scenes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <set>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -60,7 +61,17 @@ class Run {
     Run(const SubpixelPlan& plan, const std::vector<SubpixelDisplay>& displays, const std::string& scene,
         SubpixelSource& source, const std::function<bool(const std::string&)>& go_on,
         std::vector<SubpixelRow>& rows)
-        : plan_(plan), displays_(displays), scene_(scene), source_(source), go_on_(go_on), rows_(rows) {
+        : plan_(plan),
+          displays_(displays),
+          scene_(scene),
+          source_(source),
+          go_on_(go_on),
+          rows_(rows),
+          sight_{scene,
+                 source.samples(),
+                 *std::max_element(plan.rays.begin(), plan.rays.end()),
+                 source.reference(),
+                 {}} {
         for (const SubpixelDisplay& d : displays)
             metrics_.emplace_back(d.view.panel, d.view.ppd, source.reference(), source.samples());
     }
@@ -87,17 +98,28 @@ class Run {
         return true;
     }
 
+    const SubpixelSight& sight() const { return sight_; }
+
   private:
     bool score(const std::vector<std::vector<SubpixelMethod>>& methods, unsigned rays, bool with_yardstick) {
         std::vector<std::vector<Scored>> all(displays_.size());
         for (std::size_t d = 0; d < displays_.size(); ++d)
             for (const SubpixelMethod& m : methods[d]) all[d].push_back({m.name, rays, 0, 0, {}});
+        // Programs are compiled, and devices woken, before anything is timed.
+        for (const auto& of_display : methods)
+            for (const SubpixelMethod& m : of_display)
+                if (warm_.insert(m.name).second) source_.shoot(m, 1, plan_.seed);
         for (unsigned repetition = 0; repetition < plan_.repetitions; ++repetition) {
             source_.forget();
             for (std::size_t d = 0; d < displays_.size(); ++d) {
-                for (std::size_t m = 0; m < methods[d].size(); ++m)
-                    all[d][m].add(source_.shoot(methods[d][m], rays, plan_.seed + repetition), metrics_[d],
-                                  plan_.repetitions);
+                for (std::size_t m = 0; m < methods[d].size(); ++m) {
+                    const SubpixelShot shot = source_.shoot(methods[d][m], rays, plan_.seed + repetition);
+                    all[d][m].add(shot, metrics_[d], plan_.repetitions);
+                    const std::string& name = methods[d][m].name;
+                    if (with_yardstick && d == 0 && repetition == 0 && rays == sight_.rays &&
+                        (name == "box" || name == "displaced" || name == subpixel_yardstick))
+                        sight_.drives.emplace_back(name, shot.drives);
+                }
                 const PanelView& view = displays_[d].view;
                 if (!go_on_(format("%s, %u rays per pixel, repetition %u: %s at %g pixels per degree",
                                    scene_.c_str(), rays, repetition + 1, view.panel.name.c_str(), view.ppd)))
@@ -121,6 +143,8 @@ class Run {
     const std::function<bool(const std::string&)>& go_on_;
     std::vector<SubpixelRow>& rows_;
     std::deque<TileMetric> metrics_;  // they cannot be moved
+    std::set<std::string> warm_;      ///< methods that ran
+    SubpixelSight sight_;
 };
 
 }  // namespace
@@ -155,7 +179,8 @@ SubpixelMethod supersampling(unsigned side) {
 }
 
 void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelSubject>& subjects,
-                  const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows) {
+                  const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows,
+                  std::vector<SubpixelSight>& sights) {
     std::vector<SubpixelDisplay> displays;
     for (const PanelView& view : plan.displays) displays.push_back(subpixel_display(view));
     for (const SubpixelSubject& subject : subjects) {
@@ -164,6 +189,7 @@ void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelSubject>& 
         Run run(plan, displays, subject.name, *source, go_on, rows);
         for (const unsigned rays : plan.rays)
             if (!run.compare(rays)) return;
+        sights.push_back(run.sight());
         if (!run.supersample()) return;
     }
 }

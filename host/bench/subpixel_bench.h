@@ -55,9 +55,18 @@ struct SubpixelSubject {
     std::function<std::unique_ptr<SubpixelSource>()> make;
 };
 
-/// Adds the rows of one scene after the other. `go_on` is told what was done, and returns false to stop: what
-/// was measured is there. Rays of a scene are traced once for all displays.
+/// A scene to be looked at: what some methods show of it on the first display, by the most rays of the plan.
+struct SubpixelSight {
+    std::string scene;
+    unsigned samples = 0, rays = 0;  ///< of the reference, per pixel along each axis; per pixel
+    RgbImage reference;
+    std::vector<std::pair<std::string, RgbImage>> drives;  ///< by method: box, displaced, triad
+};
+
+/// Adds the rows of one scene after the other, and a sight of each. `go_on` is told what was done, and
+/// returns false to stop: what was measured is there. Rays of a scene are traced once for all displays.
 void run_subpixel(const SubpixelPlan& plan, const std::vector<SubpixelSubject>& subjects,
-                  const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows);
+                  const std::function<bool(const std::string&)>& go_on, std::vector<SubpixelRow>& rows,
+                  std::vector<SubpixelSight>& sights);
 
 }  // namespace triad

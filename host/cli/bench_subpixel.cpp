@@ -149,7 +149,7 @@ Exit run(const SubpixelOptions& o) {
             detail(done);
             return !guard.interrupted();
         },
-        report.rows);
+        report.rows, report.sights);
     if (o.json != "-" && o.csv != "-") std::fputs(summary_of(report).c_str(), stdout);
     const auto write_csv = [&](const fs::path& path) { write_file(path, csv_of(report)); };
     if (o.csv == "-")

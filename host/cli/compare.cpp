@@ -9,6 +9,7 @@
 
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
+#include "cli/error_map.h"
 #include "io/io.h"
 #include "metric/flip.h"
 #include "metric/image_metrics.h"
@@ -28,6 +29,7 @@ struct CompareOptions {
 
 /// Picture and reference.
 struct Compared {
+    unsigned width = 0, height = 0;
     std::array<std::vector<float>, 2> values;  ///< of the channels that both have, one after the other
     std::array<RgbImage, 2> display;           ///< display-linear; empty where R, G or B is missing
 };
@@ -62,7 +64,7 @@ Compared read(const CompareOptions& o) {
     if (a.width != b.width || a.height != b.height)
         throw Error(Exit::comparison, "The pictures differ in size: " + o.picture + " is " + size(a) + ", " +
                                           o.reference + " is " + size(b) + ".");
-    Compared compared;
+    Compared compared{a.width, a.height, {}, {}};
     auto& values = compared.values;
     for (const Channel& channel : a.channels) {
         const bool beauty =
@@ -77,6 +79,23 @@ Compared read(const CompareOptions& o) {
                     "The pictures " + o.picture + " and " + o.reference + " have no channel in common.");
     compared.display = {display_of(o.picture, a), display_of(o.reference, b)};
     return compared;
+}
+
+/// The metric pixel by pixel: what its number is the mean of, over the channels; of rmse and psnr the root.
+std::vector<float> map_of(const std::string& metric, const Compared& c) {
+    if (metric == "flip") return flip_map(c.display[0], c.display[1]);
+    const std::size_t pixels = std::size_t(c.width) * c.height, channels = c.values[0].size() / pixels;
+    std::vector<float> map(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+        double sum = 0;
+        for (std::size_t i = p; i < c.values[0].size(); i += pixels) {
+            const double x = c.values[0][i], r = c.values[1][i], d = x - r;
+            sum += metric == "mae" ? std::abs(d) : metric == "relmse" ? d * d / (r * r + 0.01) : d * d;
+        }
+        sum /= double(channels);
+        map[p] = float(metric == "rmse" || metric == "psnr" ? std::sqrt(sum) : sum);
+    }
+    return map;
 }
 
 /// Of two pictures that differ in size, unlike all others.
@@ -98,9 +117,9 @@ Exit run_perceived(const CompareOptions& o) {
 Exit run(const CompareOptions& o) {
     const auto& m = o.metrics;
     if (std::find(m.begin(), m.end(), "perceived") != m.end() || o.perceived.limit) return run_perceived(o);
-    if (!o.perceived.panel.empty() || o.perceived.ppd || !o.perceived.eyes.empty() ||
-        !o.perceived.maps.empty())
-        throw Error(Exit::usage, "--panel, --ppd, --eye and --map go with --metric perceived.");
+    if (!o.perceived.panel.empty() || o.perceived.ppd || !o.perceived.eyes.empty())
+        throw Error(Exit::usage, "--panel, --ppd and --eye go with --metric perceived.");
+    for (const std::string& path : o.perceived.maps) check_error_map(path);
     const Compared compared = read(o);
     const auto& [picture, reference] = compared.values;
     const bool coloured = !compared.display[0].rgb.empty() && !compared.display[1].rgb.empty();
@@ -130,6 +149,10 @@ Exit run(const CompareOptions& o) {
             failures += text;
         }
     }
+    const std::string mapped = o.metrics.empty() ? "rmse" : o.metrics.front();
+    for (const std::string& path : o.perceived.maps)
+        write_error_map(path, compared.width, compared.height, map_of(mapped, compared), {},
+                        {{"triad:metric", mapped}});
     if (not_finite) std::fprintf(stderr, "triad: %zu values are not finite\n", not_finite);
     row["not_finite"] = not_finite;
     row["passed"] = failures.empty();
@@ -169,6 +192,13 @@ void add_compare(CLI::App& app, Exit& exit) {
     command->add_option("--min-psnr", o->min_psnr, "Exit 7 below this")
         ->check(number_within(-1e3, 1e3))
         ->type_name("X");
+    command
+        ->add_option(
+            "--map", o->perceived.maps,
+            "Where the first metric (rmse by default; perceived: the first eye) sees the difference, .exr "
+            "or .png; several allowed")
+        ->allow_extra_args(false)
+        ->type_name("FILE");
     declare_perceived(*command, o->perceived);
     command->add_option("--json", o->json, "Write the numbers as JSON (-: standard output)")
         ->type_name("FILE");

@@ -5,12 +5,11 @@
 #include <cstdio>
 
 #include "base/colour.h"
-#include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "cli/error_map.h"
 #include "panel/perceived.h"
-#include "report/error_pictures.h"
 #include "session/output.h"
 #include "session/panel_file.h"
 
@@ -80,25 +79,15 @@ std::vector<float> lengths(const RgbImage& map) {
     return all;
 }
 
-/// EXR: the error and its three parts in units; PNG: the error from 0 to a round limit in false colours.
 void write_map(const std::string& path, const PerceivedError& error, const Metadata& metadata) {
-    const std::vector<float> all = lengths(error.map);
-    if (!is_exr(path)) {
-        const double limit = round_limit({&all});
-        const auto bytes = false_colour_png(all, error.map.width, error.map.height, {0, limit, false});
-        write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-        detail(path + format(": dark violet is 0, pale yellow %g", limit));
-        return;
-    }
-    Picture picture{error.map.width, error.map.height, 0, 0, 0, 0, {}, metadata};
+    std::vector<Channel> parts;
     const char* const names[] = {"lightness", "red_green", "blue_yellow"};
-    picture.channels.push_back({"error", all});
     for (std::size_t c = 0; c < 3; ++c) {
-        Channel channel{names[c], std::vector<float>(all.size())};
-        for (std::size_t i = 0; i < all.size(); ++i) channel.values[i] = error.map.rgb[3 * i + c];
-        picture.channels.push_back(std::move(channel));
+        parts.push_back({names[c], std::vector<float>(error.map.rgb.size() / 3)});
+        for (std::size_t i = 0; i < parts[c].values.size(); ++i)
+            parts[c].values[i] = error.map.rgb[3 * i + c];
     }
-    write_exr(path, picture);
+    write_error_map(path, error.map.width, error.map.height, lengths(error.map), parts, metadata);
 }
 
 }  // namespace
@@ -130,10 +119,6 @@ void declare_perceived(CLI::App& command, PerceivedOptions& o) {
         ->check(CLI::IsMember({"scielab", "sharp", "flip"}))
         ->type_name("LIST")
         ->group(group);
-    command.add_option("--map", o.maps, "Where the first eye sees the error: .exr or .png; several allowed")
-        ->allow_extra_args(false)
-        ->type_name("FILE")
-        ->group(group);
     command.add_option("--max-perceived", o.limit, "Exit 7 above this")->type_name("X")->group(group);
 }
 
@@ -142,12 +127,7 @@ Json compare_perceived(const std::string& a, const std::string& b, const Perceiv
     if (o.panel.empty())
         throw Error(Exit::usage,
                     "--metric perceived: name the display with --panel (triad panel lists them).");
-    for (const std::string& path : o.maps) {
-        const std::string extension = std::filesystem::path(path).extension().string();
-        if (extension != ".exr" && extension != ".png")
-            throw Error(Exit::usage, "--map " + path + ": the extension must be .exr or .png.");
-        check_writable(path);
-    }
+    for (const std::string& path : o.maps) check_error_map(path);
     const Panel panel = panel_named(o.panel);
     const double ppd = o.ppd.value_or(panel.ppd.value_or(usual_ppd));
     Shown reference = open(a), picture = open(b);

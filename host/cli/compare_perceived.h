@@ -15,10 +15,10 @@ namespace triad {
 struct PerceivedOptions {
     std::string panel;
     std::optional<double> ppd, limit;
-    std::vector<std::string> eyes, maps;
+    std::vector<std::string> eyes, maps;  ///< maps: of the first eye
 };
 
-/// Declares --panel, --ppd, --eye, --map and --max-perceived.
+/// Declares --panel, --ppd, --eye and --max-perceived.
 void declare_perceived(CLI::App& command, PerceivedOptions& options);
 
 /// What a display shows: files of 8 and 16 bits are sRGB, others are taken as display-linear, without a tone

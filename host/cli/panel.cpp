@@ -9,6 +9,7 @@
 #include "panel/design.h"
 #include "panel/panel_json.h"
 #include "report/error_pictures.h"
+#include "report/panel_chart.h"
 #include "report/panel_report.h"
 #include "session/output.h"
 #include "session/panel_file.h"
@@ -20,7 +21,7 @@ constexpr double usual_ppd = 45;
 constexpr std::size_t most_samples = std::size_t(1) << 28;  // of a drawing
 
 struct PanelOptions {
-    std::string panel, bins = "3x3", filter = "triad", output, picture, crop, file, json;
+    std::string panel, bins = "3x3", filter = "triad", output, picture, crop, file, test, json;
     std::optional<double> ppd;
     bool taps = false;
     unsigned zoom = 48;
@@ -76,11 +77,26 @@ void draw(const PanelOptions& o, const Panel& panel) {
     write_file(o.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
+void draw_chart(const PanelOptions& o) {
+    BytePicture chart = panel_chart(o.ppd.value_or(usual_ppd));
+    const std::vector<std::uint8_t> png =
+        encode_picture(".png", {chart.width, chart.height, 3, 8, std::move(chart.rgb), {}});
+    write_file(o.test, {reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+void check_png(const std::string& option, const std::string& path) {
+    if (path.empty()) return;
+    if (!path.ends_with(".png"))
+        throw Error(Exit::usage, option + " " + path + ": the extension must be .png.");
+    check_writable(path);
+}
+
 Exit run(const PanelOptions& o) {
-    if (!o.output.empty()) {
-        if (!o.output.ends_with(".png"))
-            throw Error(Exit::usage, "-o " + o.output + ": the extension must be .png.");
-        check_writable(o.output);
+    check_png("-o", o.output);
+    check_png("--test", o.test);
+    if (!o.test.empty()) {
+        draw_chart(o);
+        if (o.panel.empty() && o.json.empty()) return Exit::done;
     }
     const bool print = o.json != "-";
     Json rows = Json::array();
@@ -142,6 +158,12 @@ void add_panel(CLI::App& app, Exit& exit) {
     command->add_option("--zoom", o->zoom, "Of the drawing (default 48)")
         ->check(CLI::Range(1, 256))
         ->type_name("N");
+    command
+        ->add_option(
+            "--test", o->test,
+            "Draw a chart to see which panel a display has: shown pixel by pixel and seen from the usual "
+            "distance, the lines of its own tile are grey")
+        ->type_name("FILE.png");
     command->add_option("--write", o->file, "Write the panel as panel.json, to be changed")
         ->type_name("FILE");
     command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)")->type_name("FILE");

@@ -88,11 +88,11 @@ void DisplayPipeline::tap_rows(const Rows& rows, const Rows& made, const Buffer&
     }
 }
 
-/// FISTA on rows `made`; those within its reach of a border that is not the picture's are not final.
+/// The refinement of rows `made`; those within its reach of a border that is not the picture's are not final.
 Buffer DisplayPipeline::refine(const Buffer& asked, const Rows& made, std::size_t bytes) {
     const Buffer shown = device_.allocate(bytes);
-    Buffer error = device_.allocate(bytes), next = device_.allocate(bytes);
-    device_.fill_zero(error);
+    Buffer turned = device_.allocate(bytes), next = device_.allocate(bytes);
+    device_.fill_zero(turned);
     device_.fill_zero(next);
     const PlaneSums sums = refine_sums(*settings_.refine, drives_);
     const Program program = device_.build("subpixel/drives.cl", options(sums.taps));
@@ -112,17 +112,12 @@ Buffer DisplayPipeline::refine(const Buffer& asked, const Rows& made, std::size_
             .add(std::uint32_t(source_.width))
             .add(std::uint32_t(plan_.cell_x()));
     };
-    device_.run(program.kernel("refine_begin"), shape(Arguments().add(asked).add(shown).add(error)), items);
-    double t = 1.0;
+    device_.run(program.kernel("refine_begin"), shape(Arguments().add(asked).add(shown).add(turned)), items);
     for (unsigned step = 0; step < refine_steps_; ++step) {
-        const double next_t = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * t * t));
-        device_.run(
-            program.kernel("refine_step"),
-            shape(Arguments().add(asked).add(shown).add(error).add(next).add(offsets).add(weights).add(
-                float((t - 1.0) / next_t))),
-            items);
-        std::swap(error, next);
-        t = next_t;
+        device_.run(program.kernel("refine_step"),
+                    shape(Arguments().add(asked).add(shown).add(turned).add(next).add(offsets).add(weights)),
+                    items);
+        std::swap(turned, next);
     }
     return shown;
 }

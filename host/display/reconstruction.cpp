@@ -212,7 +212,7 @@ class Maker {
         triple.bins = shared ? uvec2(1, 1) : uvec2(3, 1);
         set_bins(triple.bins);
         r_.ray_start = RayStart::filter, r_.order = ToneOrder::per_pixel;
-        r_.ray_filter = c_.filter ? displaced(*c_.filter, *r_.panel, {3, 3}) : designed({});
+        r_.ray_filter = c_.filter ? displaced(*c_.filter, *r_.panel, {3, 3}) : designed(published_design);
         r_.filter = std::string(c_.filter ? words(*c_.filter) : "optimal") + ", by rays";
         if (!shared) {
             triple.cell_x = triple.cell_y = 1, triple.centres.resize(3);
@@ -222,10 +222,15 @@ class Maker {
 
     void make_triad() {
         choose_bins({3, 3});
-        r_.taps = designed({.bins_x = r_.bins_x, .bins_y = r_.bins_y});
+        const bool refine = c_.refine_steps > 0 && !r_.panel->panel.advice.full_pixel;
+        TapDesign design;
+        // Taps that reach further leave [0, 1] further, which only a refinement takes back.
+        if (!refine) design.reach = published_design.reach, design.pull = published_design.pull;
+        design.bins_x = r_.bins_x, design.bins_y = r_.bins_y;
+        r_.taps = designed(design);
         r_.filter = "optimal";
         r_.order = ToneOrder::noise_aware;
-        if (c_.refine_steps > 0 && !r_.panel->panel.advice.full_pixel) {
+        if (refine) {
             r_.refine = design_refine(r_.panel->panel, r_.panel->ppd);
             r_.refine_steps = c_.refine_steps;
             r_.filter += ", refined " + std::to_string(c_.refine_steps);

@@ -24,7 +24,7 @@ struct ReconstructionChoice {
     std::optional<PixelFilter> filter;
     std::optional<uvec2> bins;  ///< per pixel; none: what the method has
     std::optional<PanelView> panel;
-    unsigned refine_steps = 8;
+    unsigned refine_steps = 5;
 };
 
 /// One method, ready to render and to resolve.
@@ -37,7 +37,7 @@ struct Reconstruction {
     ToneOrder order = ToneOrder::per_bin;
     std::optional<TapTable> taps;  ///< none: the box over the bins
     std::optional<RefineStencil> refine;
-    unsigned refine_steps = 8;
+    unsigned refine_steps = 5;
     std::optional<PanelView> panel;  ///< that the drives are for; no other display shows them right
 
     /// Whether the result is light that a display shows, and no radiance.

@@ -45,7 +45,7 @@ struct DisplaySettings {
     std::optional<TapTable> taps;    ///< none: the box over the bins of a pixel
     /// The bounded refinement of the drives, for its panel's taps; only where tones are mapped per bin.
     std::optional<RefineStencil> refine;
-    unsigned refine_steps = 8;
+    unsigned refine_steps = 5;
     std::optional<DisplayShape> shape;  ///< none: display_shape of the device
 };
 

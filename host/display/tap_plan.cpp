@@ -171,7 +171,7 @@ PlaneSums refine_sums(const RefineStencil& s, const PlaneShape& drives) {
                             collector.add(phase, c * s.cell_x + x,
                                           plane * std::int64_t(drives.plane) +
                                               dy * std::int64_t(drives.stride) + floor_div(at, int(s.cell_x)),
-                                          s.weights[i] * s.step);
+                                          s.weights[i]);
                         }
     return collector.finish();
 }

@@ -65,7 +65,7 @@ class TapPlan {
     }
 };
 
-/// A refinement's stencil over planes of drives [channel][pixel of the cell]; the weights hold the step.
+/// A refinement's stencil over planes of drives [channel][pixel of the cell].
 PlaneSums refine_sums(const RefineStencil& stencil, const PlaneShape& drives);
 
 /// The box over the bins of a pixel.

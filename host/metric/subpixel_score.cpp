@@ -10,7 +10,6 @@ namespace triad {
 namespace {
 
 constexpr unsigned tile_px = 8;
-constexpr unsigned border_px = 8;
 constexpr unsigned draws = 1000;
 
 /// The statistic of 1000 drawings of as many tiles, with the same seed for all, and of the tiles themselves.
@@ -40,9 +39,8 @@ double error_of(const TileErrors& t, const std::vector<std::size_t>& chosen) {
 
 }  // namespace
 
-TileErrors tile_errors(const PerceivedError& error, unsigned samples) {
+TileErrors tile_errors(const PerceivedError& error, unsigned samples, unsigned border) {
     const unsigned w = error.map.width / samples, h = error.map.height / samples;
-    const unsigned border = std::min(border_px, std::min(w, h) / 4);
     const unsigned columns = (w - 2 * border + tile_px - 1) / tile_px,
                    rows = (h - 2 * border + tile_px - 1) / tile_px;
     TileErrors tiles;

@@ -13,8 +13,8 @@ struct TileErrors {
     std::vector<double> samples;            ///< that were summed
 };
 
-/// Tiles of 8 px; the border of 8 px (or a quarter of the picture) is left out, as in PerceivedError.
-TileErrors tile_errors(const PerceivedError& error, unsigned samples_per_pixel);
+/// Tiles of 8 px; a border of so many px is left out.
+TileErrors tile_errors(const PerceivedError& error, unsigned samples_per_pixel, unsigned border);
 /// Adds another picture of the same tiles: what comes out is of their mean square.
 void add(TileErrors& sum, const TileErrors& more);
 

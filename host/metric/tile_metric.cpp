@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/parallel_for.h"
+#include "base/text.h"
 #include "panel/frame.h"
 #include "panel/simulate.h"
 
@@ -37,7 +38,13 @@ Complex at(const std::vector<Complex>& transform, const Fourier& f, unsigned x, 
     return std::conj(transform[std::size_t((f.height() - y) % f.height()) * f.columns() + f.width() - x]);
 }
 
-const Panel& fitting(const Panel& panel, const RgbImage& reference, unsigned samples) {
+const Panel& fitting(const Panel& panel, double ppd, const RgbImage& reference, unsigned samples) {
+    const unsigned least = least_perceived_size(ppd);
+    if (std::min(reference.width, reference.height) < least * samples)
+        throw Error(Exit::usage,
+                    format("The picture has %u x %u pixels; at %g pixels per degree %u x %u are needed; "
+                           "choose another --size.",
+                           reference.width / samples, reference.height / samples, ppd, least, least));
     if (reference.width % (samples * panel.cell_x) || reference.height % (samples * panel.cell_y))
         throw Error(Exit::usage, "The picture's size is not a whole number of cells of panel " + panel.name +
                                      "; choose another --size.");
@@ -47,7 +54,7 @@ const Panel& fitting(const Panel& panel, const RgbImage& reference, unsigned sam
 }  // namespace
 
 TileMetric::TileMetric(const Panel& panel, double ppd, const RgbImage& reference, unsigned samples)
-    : panel_(fitting(panel, reference, samples)),
+    : panel_(fitting(panel, ppd, reference, samples)),
       ppd_(ppd),
       width_(reference.width / samples),
       height_(reference.height / samples),
@@ -59,7 +66,9 @@ TileMetric::TileMetric(const Panel& panel, double ppd, const RgbImage& reference
                              [](const Emitter& e) { return e.feed == Feed::white; })),
       lattice_((width_ + 2 * frame_x_) / panel.cell_x, (height_ + 2 * frame_y_) / panel.cell_y),
       map_((width_ + 2 * frame_x_) * map_samples_, (height_ + 2 * frame_y_) * map_samples_) {
-    const auto all = transform(framed(reference, frame_x_ * samples, frame_y_ * samples));
+    const RgbImage whole = framed(reference, frame_x_ * samples, frame_y_ * samples);
+    around_ = boxed_drives(panel, whole, samples);
+    const auto all = transform(whole);
     for (std::size_t e = 0; e < all_eyes.size(); ++e) wanted_[e] = seen(all, all_eyes[e]);
 
     // One cell in the middle, lit by one drive alone, then moved to the origin.
@@ -154,7 +163,8 @@ std::vector<double> TileMetric::levels(const RgbImage& picture, const Drive& dri
 std::array<TileErrors, all_eyes.size()> TileMetric::of(const RgbImage& drives) const {
     if (drives.width != width_ || drives.height != height_)
         throw std::invalid_argument("the picture is of another size than its reference");
-    const RgbImage picture = framed(drives, frame_x_, frame_y_);
+    RgbImage picture = around_;
+    put_in_frame(drives, picture);
     std::vector<std::vector<Complex>> shown;
     for (const Drive& drive : drives_) {
         shown.emplace_back(lattice_.frequencies());
@@ -189,7 +199,7 @@ std::array<TileErrors, all_eyes.size()> TileMetric::of(const RgbImage& drives) c
                             float(values[std::size_t(y + frame_y_ * map_samples_) * map_.width() + x +
                                          frame_x_ * map_samples_]);
             }
-            result[e] = tile_errors(error, map_samples_);
+            result[e] = tile_errors(error, map_samples_, perceived_border(ppd_));
         }
     });
     return result;

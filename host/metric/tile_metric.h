@@ -11,14 +11,14 @@ namespace triad {
 
 inline constexpr std::array all_eyes = {Eye::scielab, Eye::sharp, Eye::flip};
 
-/// The squared errors of tile_errors(PerceivedMetric::of()), fifteen times faster (96 x 64 px, CPU time):
-/// what a panel shows is put together from the transforms of its drives and of its emitters, eyes share it,
-/// and the map of the error has only as many samples as an eye can tell apart, so that errors differ by less
-/// than .5 %.
+/// The squared errors of tile_errors(PerceivedMetric::of(), perceived_border()), fifteen times faster (96 x
+/// 64 px, CPU time): what a panel shows is put together from the transforms of its drives and of its
+/// emitters, eyes share it, and the map of the error has only as many samples as an eye can tell apart, so
+/// that errors differ by less than .5 %.
 class TileMetric {
   public:
     /// `reference`: display-linear, `samples` x `samples` per pixel. Throws Error(usage) where the cells of
-    /// the panel do not fill the picture.
+    /// the panel do not fill the picture, or where it is smaller than least_perceived_size().
     TileMetric(const Panel& panel, double ppd, const RgbImage& reference, unsigned samples);
 
     /// Of drives as shown, display-linear, for each of all_eyes.
@@ -48,6 +48,7 @@ class TileMetric {
     std::vector<Drive> drives_;
     std::array<std::vector<Spectrum>, all_eyes.size()> light_;  ///< of one cell, by drive
     std::array<Spectrum, all_eyes.size()> wanted_;
+    RgbImage around_;  ///< drives of the frame
 };
 
 }  // namespace triad

@@ -35,8 +35,9 @@ void check_design(double ppd, unsigned bins_x, unsigned bins_y) {
 
 TapTable design_taps(const Panel& panel, double ppd, const TapDesign& design) {
     check_design(ppd, design.bins_x, design.bins_y);
-    if (!(design.radius >= 0.5 && design.radius <= 4))
-        throw Error(Exit::usage, format("Taps within %g px: give 0.5 to 4.", design.radius));
+    if (!(design.reach >= 0 && design.reach <= 3))
+        throw Error(Exit::usage,
+                    format("Taps that reach %g px beyond the spacing: give 0 to 3.", design.reach));
     if (panel.advice.full_pixel) return full_pixel_taps(design.bins_x, design.bins_y, panel.advice.shift);
     const Designer designer(panel, ppd, design);
     const Designer::Values solution = designer.solve();

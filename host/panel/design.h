@@ -1,18 +1,23 @@
 #pragma once
 /// Taps for a panel: the drives whose light, as the eye sees it, is nearest to the picture's
 /// (docs/subpixel.md).
+#include "panel/eye.h"
 #include "panel/panel.h"
 #include "panel/taps.h"
 
 namespace triad {
 
-/// How taps are designed. The eye is S-CIELAB's.
+/// How taps are designed.
 struct TapDesign {
     unsigned bins_x = 3, bins_y = 3;  ///< of the film, per pixel; 1 to 16
     bool cross_colour = false;        ///< nine filters instead of three: each output sees R, G and B
-    double radius =
-        1.5;  ///< px: bins whose centre is at most this far, along x and along y, from the emitter
+    /// px: bins count whose centre is at most this, and the spacing of the outputs of its colour (1 where
+    /// every pixel has one), from the emitter along x and along y; 0.5 less does for drives that are merely
+    /// cut to [0, 1]
+    double reach = 1.5;
     bool separable = false;  ///< three filters as products of their sums over columns and rows
+    EyeShares eyes = {};
+    double pull = 3e-4;  ///< lambda: towards the box where the eyes see hardly anything; it keeps noise low
 };
 
 /// The taps that minimise the expected perceived error, each with its exact sum of 1. The full pixel's box
@@ -39,8 +44,11 @@ TapTable full_pixel_taps(unsigned bins_x, unsigned bins_y, const dvec2& shift = 
 /// Error(usage) for a panel that is not one of three even stripes.
 TapTable platt_taps(const Panel& panel, double ppd, bool nine);
 
-/// The quadratic form of the perceived error in the drives, for the bounded refinement. Only 0 where the
-/// advice is the full pixel.
-RefineStencil design_refine(const Panel& panel, double ppd);
+/// The published design: the eye of S-CIELAB alone, and taps within 1.5 px where every pixel has all colours.
+/// Best where drives are merely cut to [0, 1], and where rays are drawn from the taps.
+inline constexpr TapDesign published_design = {.reach = 0.5, .eyes = {1, 0, 0}, .pull = 1e-3};
+
+/// What the bounded refinement needs. Only 0 where the advice is the full pixel.
+RefineStencil design_refine(const Panel& panel, double ppd, const EyeShares& eyes = {});
 
 }  // namespace triad

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "panel/eye.h"
-
 namespace triad {
 namespace {
 
 using Values = Designer::Values;
 
-constexpr double pull = 1e-3;          // lambda: towards the box, where the eye attenuates below 3 %
 constexpr double coupled = 0.85;       // covariance of two channels of a picture
 constexpr double least_reach = 6;      // cycles per pixel
 constexpr unsigned least_period = 16;  // px; taps change by less than .0003 beyond
@@ -38,12 +35,6 @@ double box_share(int i, double centre, unsigned bins) {
     return std::max(0.0, std::min((i + 1) / double(bins), centre + 0.5) - lo);
 }
 
-ErrorForm::Response response(const Panel& panel, double ppd) {
-    return [eye = EyeResponse(Eye::scielab, panel_light(panel).white), ppd](double f) {
-        return eye.at(f * ppd);
-    };
-}
-
 double dot(const Values& a, const Values& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
@@ -63,16 +54,18 @@ void each(const Fourier& grid, const TapFilter& f, auto&& visit) {
 
 Designer::Designer(const Panel& panel, double ppd, const TapDesign& design)
     : bins_(design.bins_x, design.bins_y),
+      cell_(panel.cell_x * panel.cell_y),
+      pull_share_(design.pull),
       period_(ErrorForm::period_of(panel, least_period)),
       reach_(std::max<double>(least_reach, std::max(bins_.x, bins_.y))),
       grid_(period_ * bins_.x, period_ * bins_.y),
       weight_(grid_.frequencies()),
-      form_(panel, response(panel, ppd), period_, reach_,
+      form_(panel, eye_responses(panel, ppd, design.eyes), period_, reach_,
             [this](const ErrorForm::Frequency& f, std::size_t outputs) { add(f, outputs); }) {
     for (std::size_t e = 0; e < form_.count(); ++e) {
         const Output& o = form_.outputs()[e];
         for (unsigned j = 0; j < 3; ++j)
-            if (design.cross_colour || j == o.channel) add_filter(e, j, design.radius);
+            if (design.cross_colour || j == o.channel) add_filter(e, j, design.reach + spacing(o.channel));
     }
     add_pull();
 }
@@ -137,10 +130,17 @@ void Designer::add_pull() {
             const auto q = fold(x, y);
             if (!q) continue;
             const dvec2 f = dvec2(x, y) / double(period_);
-            const Complex scale = pull * form_.trace() * spectrum(f) * bin(f) * sinc(f);
+            const Complex scale = pull_share_ * form_.trace() * spectrum(f) * bin(f) * sinc(f);
             for (std::size_t e = 0; e < form_.count(); ++e)
                 pull_[e][*q] += scale * std::polar(1.0, -2 * pi * glm::dot(f, form_.outputs()[e].centre));
         }
+}
+
+/// Of the outputs of a channel that feed emitters, px.
+double Designer::spacing(unsigned channel) const {
+    const auto count = std::count_if(form_.outputs().begin(), form_.outputs().end(),
+                                     [channel](const Output& o) { return o.channel == channel; });
+    return std::sqrt(cell_ / double(count));
 }
 
 void Designer::add_filter(std::size_t e, unsigned channel, double radius) {
@@ -201,7 +201,7 @@ Designer::Values Designer::apply(const Values& taps) const {
         each(grid_, filters_[p], [&](std::size_t tap, std::size_t at) { plane[at] = taps[tap]; });
         grid_.forward(plane, transforms[p]);
     }
-    const double pulled = pull * form_.trace();
+    const double pulled = pull_share_ * form_.trace();
     std::vector<Complex> sum(grid_.frequencies());
     for (const TapFilter& f : filters_) {
         for (unsigned y = 0, q = 0; y < grid_.height(); ++y)

@@ -46,12 +46,15 @@ class Designer {
     void add(const ErrorForm::Frequency& f, std::size_t outputs);
     void add_pull();
     void add_filter(std::size_t output, unsigned channel, double radius);
+    double spacing(unsigned channel) const;
     Values start() const;
     void project(Values& taps) const;
     Values right_side() const;
     Values apply(const Values& taps) const;
 
     uvec2 bins_;
+    double cell_;                                      ///< px^2
+    double pull_share_;                                ///< lambda
     unsigned period_;                                  ///< px
     double reach_;                                     ///< cycles per pixel
     Fourier grid_;                                     ///< of the bins of a period

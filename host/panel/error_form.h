@@ -4,11 +4,12 @@
 ///     |E(f)|^2 = d^* A(k) d - 2 Re d^* r(f) R(f) + ...,   f = k + m over the harmonics of the cell,
 ///     A_ee'(k) = sum_m v_e^*(k + m) v_e'(k + m),   r_ej(f) = v_e^*(f) V(f) u_j,
 /// where v_e = V(f) times the transform of the light of output e, V the eye (panel/eye.h) and u_j the light
-/// of channel j. One picture of `period` px stands for all.
+/// of channel j. Of several eyes it is the sum. One picture of `period` px stands for all.
 #include <complex>
 #include <functional>
 #include <vector>
 
+#include "panel/eye.h"
 #include "panel/panel.h"
 
 namespace triad {
@@ -16,8 +17,9 @@ namespace triad {
 class ErrorForm {
   public:
     using Complex = std::complex<double>;
-    /// What the eye makes of XYZ at a frequency in cycles per pixel, in the axes of the error.
-    using Response = std::function<dmat3(double cycles_per_pixel)>;
+    /// What each eye makes of XYZ at a frequency in cycles per pixel, in the axes of the error, times the
+    /// root of its share.
+    using Response = std::function<std::vector<dmat3>(double cycles_per_pixel)>;
     /// What a visitor is told of each frequency: its index and f (cycles per pixel) along x and y, and r^* of
     /// each output and channel, [output][3].
     struct Frequency {
@@ -51,5 +53,8 @@ class ErrorForm {
     std::vector<Complex> a_;
     double trace_ = 0;
 };
+
+/// Of the eyes that have a share, for a panel seen at `ppd` pixels per degree.
+ErrorForm::Response eye_responses(const Panel& panel, double ppd, const EyeShares& shares);
 
 }  // namespace triad

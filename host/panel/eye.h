@@ -23,6 +23,13 @@ enum class Eye {
 std::optional<Eye> eye_named(const std::string& name);
 const char* eye_name(Eye eye);
 
+/// How much the error that each eye sees counts in what is minimised. S-CIELAB's eye is the one that tests
+/// with people have confirmed; a little of the others keeps patterns in check that it is blind to, and costs
+/// it nearly nothing (docs/decisions/subpixel.md).
+struct EyeShares {
+    double scielab = 1, sharp = 0.03, flip = 0.15;
+};
+
 /// Opponent colours from CIE XYZ relative to white (Y of white = 1).
 dmat3 opponent_of_xyz(Eye eye, const dvec3& white);
 

@@ -20,14 +20,16 @@ namespace {
 
 /// To be raised when the designer answers otherwise: what is kept is out of date then, which
 /// KeptTaps.are_what_the_designer_says finds out.
-constexpr const char* schema = "triad.taps/1";
+constexpr const char* schema = "triad.taps/2";
 
 fs::path path_of(const Panel& panel, double ppd, const TapDesign& design) {
     const fs::path cache = cache_folder();
     if (cache.empty()) return {};
     Hash key;
     key.add(schema).add(panel_id(panel)).add_value(ppd).add_value(design.bins_x).add_value(design.bins_y);
-    key.add_value(design.cross_colour).add_value(design.radius).add_value(design.separable);
+    key.add_value(design.cross_colour).add_value(design.reach).add_value(design.separable);
+    key.add_value(design.eyes.scielab).add_value(design.eyes.sharp).add_value(design.eyes.flip);
+    key.add_value(design.pull);
     return cache / "taps" / (key.hex() + ".json");
 }
 

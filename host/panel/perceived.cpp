@@ -19,6 +19,10 @@ using Complex = std::complex<double>;
 using Planes = std::array<std::vector<double>, 3>;
 
 constexpr unsigned rows_per_chunk = 16;
+constexpr unsigned filter_border = 4, least_inside = 8;  // px
+/// Degrees beyond which lies a thousandth of the square of S-CIELAB's widest narrow Gaussian, blue-yellow's,
+/// seen from a straight border: 1.55 times .0536.
+constexpr double eye_border = 0.083;
 
 std::string size_text(const RgbImage& image) { return format("%u x %u", image.width, image.height); }
 
@@ -35,6 +39,7 @@ struct PerceivedMetric::State {
     dmat3 back;                                     ///< to XYZ
     std::array<std::vector<float>, 3> sensitivity;  ///< of each frequency, over their number
     Planes wanted;
+    RgbImage around;  ///< drives of the frame, and of the middle, which pictures replace; empty: none
 
     State(const Panel& p, const RgbImage& reference, unsigned s, const PerceivedChoice& c)
         : panel(p),
@@ -51,7 +56,9 @@ struct PerceivedMetric::State {
         opponent = from_xyz * dmat3(light.channel[0], light.channel[1], light.channel[2]);
         back = glm::inverse(from_xyz);
         weigh();
-        wanted = seen(framed(reference, margin_x * samples, margin_y * samples));
+        const RgbImage whole = framed(reference, margin_x * samples, margin_y * samples);
+        wanted = seen(whole);
+        if (samples > 1 && !choice.repeats) around = boxed_drives(panel, whole, samples);
     }
 
     void weigh() {
@@ -99,6 +106,9 @@ struct PerceivedMetric::State {
     }
 };
 
+unsigned perceived_border(double ppd) { return filter_border + unsigned(std::ceil(eye_border * ppd)); }
+unsigned least_perceived_size(double ppd) { return 2 * perceived_border(ppd) + least_inside; }
+
 PerceivedMetric::PerceivedMetric(const Panel& panel, const RgbImage& reference, unsigned samples,
                                  const PerceivedChoice& choice) {
     if (samples < 3 || reference.rgb.empty() || reference.width % samples || reference.height % samples)
@@ -108,6 +118,15 @@ PerceivedMetric::PerceivedMetric(const Panel& panel, const RgbImage& reference, 
                 "A perceived error needs a reference of 3 or more whole samples per pixel along both axes: "
                 "%s is not a number of pixels at %u.",
                 size_text(reference).c_str(), samples));
+    const unsigned least = least_perceived_size(choice.ppd);
+    if (!choice.border && std::min(reference.width, reference.height) < least * samples)
+        throw Error(
+            Exit::comparison,
+            format(
+                "The picture shows %u x %u pixels. At %g pixels per degree filter and eye see beyond its "
+                "borders from %u pixels inside, so that at least %u x %u are needed for a perceived error.",
+                reference.width / samples, reference.height / samples, choice.ppd,
+                perceived_border(choice.ppd), least, least));
     state_ = std::make_unique<const State>(panel, reference, samples, choice);
 }
 
@@ -119,7 +138,9 @@ PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
     if (drives.width != s.width || drives.height != s.height)
         throw Error(Exit::comparison, format("The picture is %s, its reference shows %u x %u pixels.",
                                              size_text(drives).c_str(), s.width, s.height));
-    const RgbImage light = simulate_panel(s.panel, framed(drives, s.margin_x, s.margin_y), s.samples);
+    RgbImage whole = s.around;
+    if (!s.choice.repeats) put_in_frame(drives, whole);
+    const RgbImage light = simulate_panel(s.panel, s.choice.repeats ? drives : whole, s.samples, true);
     const Planes shown = s.seen(light);
     const dmat3 axes = linear_lab_of_xyz(s.white);
     const auto at = [](const Planes& p, std::size_t i) { return dvec3(p[0][i], p[1][i], p[2][i]); };
@@ -127,7 +148,10 @@ PerceivedError PerceivedMetric::of(const RgbImage& drives) const {
     PerceivedError result;
     const unsigned width = s.width * s.samples, height = s.height * s.samples;
     result.map = {width, height, std::vector<float>(std::size_t(width) * height * 3)};
-    const unsigned border = s.samples * std::min(s.choice.border, std::min(s.width, s.height) / 4);
+    const unsigned border = s.samples * s.choice.border.value_or(perceived_border(s.choice.ppd));
+    if (2 * border >= std::min(width, height))
+        throw Error(Exit::comparison, format("A picture of %u x %u pixels has nothing within a border of %u.",
+                                             s.width, s.height, border / s.samples));
     std::vector<double> distances;
     for (unsigned y = 0; y < height; ++y)
         for (unsigned x = 0; x < width; ++x) {

@@ -1,6 +1,7 @@
 #pragma once
 /// How far what a display shows is from the picture it should show, as the eye sees both.
 #include <memory>
+#include <optional>
 
 #include "base/rgb_image.h"
 #include "panel/eye.h"
@@ -11,9 +12,17 @@ namespace triad {
 struct PerceivedChoice {
     double ppd = 45;  ///< pixels per degree
     Eye eye = Eye::scielab;
-    unsigned border = 8;   ///< px on each side that no number counts; at most a quarter of the picture
+    /// px on each side that no number counts; none: perceived_border(). The map has them all.
+    std::optional<unsigned> border = {};
     bool repeats = false;  ///< beyond its border the picture begins anew, instead of going on as in a mirror
 };
+
+/// Px along each side of a picture where taps, refinement or eye see what lies beyond it: 4 px, and as far as
+/// the eyes' sharp Gaussians reach. (Their wide ones see beyond from everywhere; there the display shows the
+/// reference, mirrored, with a box around each emitter, which is right on average.)
+unsigned perceived_border(double ppd);
+/// The least width and height of a picture that is compared: 8 px within these borders.
+unsigned least_perceived_size(double ppd);
 
 /// In units of about one CIELAB unit at mid grey.
 struct PerceivedError {
@@ -28,7 +37,8 @@ struct PerceivedError {
 class PerceivedMetric {
   public:
     /// `reference`: display-linear, `samples` x `samples` per pixel of the display, at least 3. Throws
-    /// Error(comparison) for another size or one that is not a whole number of pixels.
+    /// Error(comparison) for another size, one that is not a whole number of pixels, or one with less than 8
+    /// px within its borders, where the choice names none.
     PerceivedMetric(const Panel& panel, const RgbImage& reference, unsigned samples,
                     const PerceivedChoice& choice = {});
     PerceivedMetric(PerceivedMetric&&) noexcept;

@@ -54,7 +54,7 @@ double level(const Emitter& e, const RgbImage& drives, unsigned x, unsigned y, b
 
 }  // namespace
 
-RgbImage simulate_panel(const Panel& panel, const RgbImage& drives, unsigned samples) {
+RgbImage simulate_panel(const Panel& panel, const RgbImage& drives, unsigned samples, bool repeats) {
     const std::vector<Spot> spots = spots_of(panel, samples);
     const bool has_white = std::any_of(panel.emitters.begin(), panel.emitters.end(),
                                        [](const Emitter& e) { return e.feed == Feed::white; });
@@ -69,8 +69,8 @@ RgbImage simulate_panel(const Panel& panel, const RgbImage& drives, unsigned sam
                 levels[i] = inside ? level(panel.emitters[i], drives, x, y, has_white) : 0;
             }
             for (const Spot& spot : spots) {
-                const auto x = std::ptrdiff_t(cx * samples) + spot.x,
-                           y = std::ptrdiff_t(cy * samples) + spot.y;
+                auto x = std::ptrdiff_t(cx * samples) + spot.x, y = std::ptrdiff_t(cy * samples) + spot.y;
+                if (repeats) x = (x + image.width) % image.width, y = (y + image.height) % image.height;
                 if (x < 0 || y < 0 || x >= std::ptrdiff_t(image.width) || y >= std::ptrdiff_t(image.height))
                     continue;
                 float* rgb = image.rgb.data() + 3 * (std::size_t(y) * image.width + std::size_t(x));

@@ -30,16 +30,15 @@ struct TapTable {
     }
 };
 
-/// The quadratic form of the perceived error in the drives, A + t lambda I, cut to a finite stencil, which
-/// the bounded refinement minimises: y <- clip(y - step * sum A (y - d0)) (docs/subpixel.md). Rows and
-/// columns of channels that feed no emitter are 0.
+/// What the bounded refinement needs of the quadratic form A of the perceived error in the drives: the low
+/// pass A (A + rho I)^-1, cut to a finite stencil (docs/subpixel.md). Rows and columns of channels that feed
+/// no emitter are 0.
 struct RefineStencil {
     unsigned cell_x = 1, cell_y = 1;  ///< pixels per cell
     unsigned radius = 0;              ///< pixels
     /// [cell row][cell column][output channel][dy + radius][dx + radius][input channel]; the input is the
     /// pixel dx to the right of the output's and dy below
     std::vector<float> weights;
-    float step = 0;  ///< 1 / the largest eigenvalue
 };
 
 }  // namespace triad

@@ -8,6 +8,7 @@
 
 #include "display/resolve.h"
 #include "io/io.h"
+#include "report/small_type.h"
 
 namespace triad {
 namespace {
@@ -35,6 +36,14 @@ Colour colour_of(double t, std::span<const Colour> stops) {
     return colour;
 }
 
+std::array<std::uint8_t, 3> false_colour(float value, const ColourScale& scale) {
+    if (std::isnan(value)) return {0, 0, 0};
+    const Colour colour = colour_of((value - scale.low) / (scale.high - scale.low), stops_of(scale));
+    std::array<std::uint8_t, 3> bytes;
+    for (std::size_t c = 0; c < 3; ++c) bytes[c] = static_cast<std::uint8_t>(std::lround(colour[c]));
+    return bytes;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> png_of(const RgbImage& display) {
@@ -49,12 +58,33 @@ std::vector<std::uint8_t> false_colour_png(const std::vector<float>& values, uns
     std::vector<std::uint8_t> bytes;
     bytes.reserve(values.size() * 3);
     for (const float value : values) {
-        const Colour colour =
-            std::isnan(value) ? Colour{0, 0, 0}
-                              : colour_of((value - scale.low) / (scale.high - scale.low), stops_of(scale));
-        for (const double c : colour) bytes.push_back(static_cast<std::uint8_t>(std::lround(c)));
+        const std::array<std::uint8_t, 3> colour = false_colour(value, scale);
+        bytes.insert(bytes.end(), colour.begin(), colour.end());
     }
     return encode_picture(".png", {width, height, 3, 8, std::move(bytes), {}});
+}
+
+std::vector<std::uint8_t> false_colour_map_png(const std::vector<float>& values, unsigned width,
+                                               unsigned height, const ColourScale& scale) {
+    constexpr unsigned bar = 8, gap = 4, least_width = 96;
+    const unsigned zoom = width >= 480 ? 2 : 1;
+    BytePicture picture(std::max(width, least_width), height + bar + 3 * gap + type_height(zoom),
+                        {24, 24, 24});
+    for (unsigned y = 0; y < height; ++y)
+        for (unsigned x = 0; x < width; ++x)
+            picture.set(x, y, false_colour(values[std::size_t(y) * width + x], scale));
+    for (unsigned x = gap; x + gap < picture.width; ++x) {
+        const double t = double(x - gap) / (picture.width - 2 * gap - 1);
+        for (unsigned y = 0; y < bar; ++y)
+            picture.set(x, height + gap + y, false_colour(float(std::lerp(scale.low, scale.high, t)), scale));
+    }
+    for (const double t : {0.0, 0.5, 1.0}) {
+        char text[24];
+        std::snprintf(text, sizeof text, "%.3g", std::lerp(scale.low, scale.high, t));
+        const unsigned room = picture.width - 2 * gap - type_width(text, zoom);
+        draw_type(picture, text, gap + unsigned(t * room), height + bar + 2 * gap, zoom, {230, 230, 230});
+    }
+    return encode_picture(".png", {picture.width, picture.height, 3, 8, std::move(picture.rgb), {}});
 }
 
 std::string css_gradient(const ColourScale& scale) {

@@ -19,6 +19,10 @@ struct ColourScale {
 std::vector<std::uint8_t> false_colour_png(const std::vector<float>& values, unsigned width, unsigned height,
                                            const ColourScale& scale);
 
+/// The same, with a bar below that names the values of the colours. Narrow pictures get room for it.
+std::vector<std::uint8_t> false_colour_map_png(const std::vector<float>& values, unsigned width,
+                                               unsigned height, const ColourScale& scale);
+
 /// The colours of a scale as CSS, "linear-gradient(to right, #... 0%, ...)".
 std::string css_gradient(const ColourScale& scale);
 

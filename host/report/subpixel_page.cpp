@@ -2,76 +2,19 @@
 #include <algorithm>
 #include <map>
 
-#include "base/child_process.h"
 #include "base/files.h"
-#include "base/log.h"
 #include "base/machine.h"
 #include "base/text.h"
-#include "report/error_plots.h"
 #include "report/error_report_style.h"
 #include "report/html.h"
+#include "report/subpixel_plots.h"
 #include "report/subpixel_report.h"
+#include "report/subpixel_sights.h"
 
 namespace fs = std::filesystem;
 
 namespace triad {
 namespace {
-
-constexpr const char* eyes[] = {"scielab", "sharp", "flip"};
-
-/// Methods in the order of a plot's key: ssaa:3, ssaa:4 ... are points of one line.
-std::string family(const std::string& method) { return method.starts_with("ssaa:") ? "ssaa:N" : method; }
-
-/// Three eyes' errors and the time, against rays; one key for all.
-std::string plot_script(std::vector<SubpixelRow> rows, const std::string& title) {
-    std::sort(rows.begin(), rows.end(),
-              [](const SubpixelRow& a, const SubpixelRow& b) { return a.rays_per_pixel < b.rays_per_pixel; });
-    std::vector<std::string> families;
-    for (const SubpixelRow& row : rows)
-        if (std::find(families.begin(), families.end(), family(row.method)) == families.end())
-            families.push_back(family(row.method));
-    std::string data;
-    for (std::size_t f = 0; f < families.size(); ++f)
-        for (unsigned e = 0; e < 3; ++e) {
-            data += format("$f%zu_%u << EOD\n", f, e);
-            for (const SubpixelRow& row : rows)
-                if (family(row.method) == families[f] && row.eye == eyes[e])
-                    data += format("%.6g %.6g %.6g\n", row.rays_per_pixel, row.error.value,
-                                   std::max(row.seconds, 1e-6));
-            data += "EOD\n";
-        }
-    std::string script =
-        "set terminal svg size 1400,900 dynamic font 'sans-serif,13' noenhanced background '#ffffff'\n"
-        "set encoding utf8\nset logscale xy\nset format xy '%g'\nset grid lc rgb '#888888' lw 0.5 dt 1\n" +
-        data + "set multiplot layout 2,2 margins 0.06,0.68,0.07,0.9 spacing 0.09,0.13 title " +
-        gnuplot_quoted(title) + "\n";
-    for (unsigned panel = 0; panel < 4; ++panel) {
-        const bool time = panel == 3;
-        script += std::string("set xlabel 'rays per pixel'\nset ylabel '") +
-                  (time ? "seconds" : "perceived error") + "'\nset title '" + (time ? "time" : eyes[panel]) +
-                  "'\n" + (panel == 1 ? "set key at screen 0.99,0.9 right font ',11'\n" : "unset key\n") +
-                  "plot ";
-        for (std::size_t f = 0; f < families.size(); ++f) {
-            const bool own = families[f] == subpixel_yardstick;
-            script += format("$f%zu_%u using 1:%d with linespoints lw %g dt %zu pt %zu ps 0.6 ", f,
-                             time ? 0 : panel, time ? 3 : 2, own ? 4.0 : 1.4,
-                             own ? std::size_t(1) : 1 + f % 5, 1 + f % 13) +
-                      (own ? "lc rgb 'black' " : format("lc %zu ", f)) + "title " +
-                      gnuplot_quoted(families[f]) + (f + 1 < families.size() ? ", " : "\n");
-        }
-    }
-    return script + "unset multiplot\n";
-}
-
-std::string drawn(const std::string& script) {
-    const TemporaryFolder folder;
-    write_file(folder.path() / "plot.gp", script);
-    const auto status = run_program({"gnuplot", (folder.path() / "plot.gp").string()},
-                                    folder.path() / "plot.svg", folder.path() / "log");
-    if (status != 0) return "";
-    const auto bytes = read_file(folder.path() / "plot.svg");
-    return {bytes.begin(), bytes.end()};
-}
 
 std::string cell(const SubpixelRow& row) {
     const char* tone = row.method == subpixel_yardstick            ? ""
@@ -107,6 +50,29 @@ std::string table(const std::vector<SubpixelRow>& all, unsigned rays) {
         html += format("<td class=\"n\" data-label=\"seconds\">%.3g</td></tr>\n", rows[0]->seconds);
     }
     return html + "</tbody></table>\n";
+}
+
+/// By S-CIELAB's eye: methods by error for each number of rays, and error for time. Also as FOLDER/SCENE.svg.
+std::string plots(const fs::path& folder, const std::string& scene, const std::vector<SubpixelRow>& all,
+                  const std::vector<unsigned>& numbers) {
+    std::vector<SubpixelRow> rows;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(rows),
+                 [](const SubpixelRow& row) { return row.eye == "scielab"; });
+    const auto letters = method_letters(rows);
+    std::string html = "<div class=\"plots\">\n";
+    const auto add = [&](const std::string& svg, const std::string& caption) {
+        html += "<figure>" + svg + "<figcaption>" + html_escape(caption) + "</figcaption></figure>\n";
+    };
+    for (const unsigned rays : numbers) {
+        std::vector<SubpixelRow> of_rays;
+        std::copy_if(rows.begin(), rows.end(), std::back_inserter(of_rays),
+                     [rays](const SubpixelRow& row) { return row.rays == rays; });
+        add(ranked_dots(of_rays, letters), format("%u rays per pixel", rays));
+    }
+    const std::string time = error_for_time(rows, letters);
+    add(time, "Error for time; the line joins what nothing beats in both");
+    write_file(folder / (scene + ".svg"), time);
+    return html + "</div>\n";
 }
 
 std::string display_words(const PanelView& view) {
@@ -168,7 +134,6 @@ void write_subpixel_report(const fs::path& folder, const SubpixelReport& report)
         "(tiles drawn in pairs); red: it is "
         "significantly worse. Seconds of rays that methods share count for each of them.</p>\n" +
         verdict_table(report);
-    bool missing = false;
     for (const PanelView& view : report.plan.displays) {
         const std::vector<SubpixelRow> on_display = rows_on(report, view);
         const bool first = &view == &report.plan.displays.front();
@@ -179,24 +144,12 @@ void write_subpixel_report(const fs::path& folder, const SubpixelReport& report)
             std::copy_if(on_display.begin(), on_display.end(), std::back_inserter(rows),
                          [&](const SubpixelRow& row) { return row.scene == scene; });
             html += "<h2>" + html_escape(scene) + "</h2>\n";
-            // Plots of every display would make the page too large to open.
-            const std::string svg = missing || !first ? "" : drawn(plot_script(rows, scene));
-            missing = missing || (first && svg.empty());
-            if (!svg.empty()) {
-                write_file(folder / (scene + ".svg"), svg);
-                html += "<figure><img alt=\"Errors and time against rays, " + html_escape(scene) +
-                        "\" src=\"" +
-                        data_uri("image/svg+xml",
-                                 {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()}) +
-                        "\"></figure>\n";
-            }
+            for (const SubpixelSight& sight : report.sights)
+                if (first && sight.scene == scene) html += sights_of(sight, view);
+            html += first ? plots(folder, scene, rows, report.plan.rays) : "";
             for (const unsigned rays : report.plan.rays) html += table(rows, rays);
         }
         html += "</details>\n";
-    }
-    if (missing) {
-        warn("There are no plots: gnuplot (package gnuplot-nox) is not there, or failed.");
-        html += "<p class=\"bad\">There are no plots: gnuplot is not there, or failed.</p>\n";
     }
     write_file(folder / "report.html", html + "</body></html>\n");
 }

@@ -13,6 +13,7 @@ struct SubpixelReport {
     SubpixelPlan plan;
     std::vector<SubpixelRow> rows;
     std::string command, date;  ///< for the page
+    std::vector<SubpixelSight> sights = {};
 };
 
 /// Comparisons with triad at equal rays.
@@ -31,8 +32,7 @@ std::string csv_of(const SubpixelReport& report);
 /// beats triad.
 std::string summary_of(const SubpixelReport& report);
 
-/// Writes FOLDER/report.html and, for the first display, a plot of each scene as FOLDER/*.svg. Without
-/// gnuplot there are no plots, and a warning.
+/// Writes FOLDER/report.html and, for the first display, error against time of each scene as FOLDER/*.svg.
 void write_subpixel_report(const std::filesystem::path& folder, const SubpixelReport& report);
 
 }  // namespace triad

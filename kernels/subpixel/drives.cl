@@ -119,43 +119,45 @@ TRIAD_FUNCTION int refine_inside(const TapRun* r, uint width, uint cell_x) {
     return (int)((width + cell_x - 1u - r->plane % cell_x) / cell_x) - (int)(r->run * DISPLAY_LANES);
 }
 
-/* The bounded refinement: least (d - d0)^T A (d - d0) with every drive in [0, 1], by accelerated projected
- * gradients (Beck and Teboulle 2009, "A fast iterative shrinkage-thresholding algorithm", FISTA with a
- * constant step). error = y - d0, 0 outside the picture: nothing is clipped there. */
-kernel void refine_begin(global const float* asked, global float* shown, global float* error, uint runs,
+/* The bounded refinement: least (d - d0)^T A (d - d0) with every drive in [0, 1], by the splitting of Douglas
+ * and Rachford (Lions and Mercier 1979, "Splitting Algorithms for the Sum of Two Nonlinear Operators"):
+ *     w = 2 clip(v) - v - d0,    v <- v - clip(v) + d0 + w - T w,    d = clip(v),
+ * where T is the low pass A (A + rho I)^-1. Gradient steps would take hundreds, since A is small for most
+ * patterns that pixels can show. turned = w, 0 outside the picture: nothing is clipped there. v begins with
+ * twice what is beyond [0, 1]. */
+TRIAD_FUNCTION Lanes refine_turn(Lanes v, Lanes d0) { return 2.0f * lanes_saturate(v) - v - d0; }
+
+kernel void refine_begin(global const float* asked, global float* shown, global float* turned, uint runs,
                          uint rows, uint groups, uint planes, uint phases, uint first_phase, uint first,
                          uint stride, uint plane_floats, uint width, uint cell_x) {
     const TapRun r = tap_run(runs, rows, groups, phases, first_phase, planes);
     const int inside = refine_inside(&r, width, cell_x);
     for (uint k = 0u; k < DISPLAY_ROWS && tap_has_row(&r, k); ++k) {
         const size_t at = refine_at(&r, k, first, stride, plane_floats);
-        const Lanes d0 = LANES_LOAD(asked + at), d = lanes_saturate(d0);
-        LANES_STORE(d, shown + at);
-        LANES_STORE(LANES_WHERE(LANES_INDICES < inside, d - d0), error + at);
+        const Lanes d0 = LANES_LOAD(asked + at), v = 2.0f * d0 - lanes_saturate(d0);
+        LANES_STORE(v, shown + at);
+        LANES_STORE(LANES_WHERE(LANES_INDICES < inside, refine_turn(v, d0)), turned + at);
     }
 }
 
-/* weights hold the step; momentum is (t_k - 1) / t_(k + 1). */
-kernel void refine_step(global const float* asked, global float* shown, global const float* error,
-                        global float* next_error, global const int* offsets, global const float* weights,
-                        float momentum, uint runs, uint rows, uint groups, uint planes, uint phases,
-                        uint first_phase, uint first, uint stride, uint plane_floats, uint width,
-                        uint cell_x) {
+kernel void refine_step(global const float* asked, global float* shown, global const float* turned,
+                        global float* next_turned, global const int* offsets, global const float* weights,
+                        uint runs, uint rows, uint groups, uint planes, uint phases, uint first_phase,
+                        uint first, uint stride, uint plane_floats, uint width, uint cell_x) {
     const TapRun r = tap_run(runs, rows, groups, phases, first_phase, planes);
     if (!tap_has_row(&r, 0u)) return;
     const int inside = refine_inside(&r, width, cell_x);
     global const float* from[DISPLAY_ROWS];
-    for (uint k = 0u; k < DISPLAY_ROWS; ++k) from[k] = error + refine_at(&r, k, first, stride, plane_floats);
-    Lanes gradients[DISPLAY_ROWS];
-    lanes_sum(from, offsets + r.table, weights + r.table, gradients);
+    for (uint k = 0u; k < DISPLAY_ROWS; ++k) from[k] = turned + refine_at(&r, k, first, stride, plane_floats);
+    Lanes smooth[DISPLAY_ROWS];
+    lanes_sum(from, offsets + r.table, weights + r.table, smooth);
     for (uint k = 0u; k < DISPLAY_ROWS; ++k)
         if (tap_has_row(&r, k)) {
             const size_t at = refine_at(&r, k, first, stride, plane_floats);
             const Lanes d0 = LANES_LOAD(asked + at), before = LANES_LOAD(shown + at);
-            const Lanes d = lanes_saturate(d0 + LANES_LOAD(from[k]) - gradients[k]);
-            const Lanes ahead = fma((Lanes)(momentum), d - before, d);
-            LANES_STORE(d, shown + at);
-            LANES_STORE(LANES_WHERE(LANES_INDICES < inside, ahead - d0), next_error + at);
+            const Lanes v = before - lanes_saturate(before) + d0 + LANES_LOAD(from[k]) - smooth[k];
+            LANES_STORE(v, shown + at);
+            LANES_STORE(LANES_WHERE(LANES_INDICES < inside, refine_turn(v, d0)), next_turned + at);
         }
 }
 

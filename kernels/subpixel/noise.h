@@ -1,7 +1,7 @@
 /* Tone maps of bins that hold few rays. A tone map is bent, so that the mean of tone-mapped noise is not the
  * tone-mapped mean: alone, a bin of one ray is too dark. Where the bins of a pixel differ by noise, they are
  * therefore evened out and mapped along a tangent, which keeps their mean; where they differ by structure,
- * one by one, which keeps bright edges tame. docs/subpixel.md has the measurements. */
+ * one by one, which keeps bright edges tame. docs/decisions/subpixel.md says why. */
 #ifndef TRIAD_SUBPIXEL_NOISE_H
 #define TRIAD_SUBPIXEL_NOISE_H
 

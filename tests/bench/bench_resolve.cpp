@@ -120,17 +120,17 @@ int main(int argc, char** argv) try {
     const Panel rgb = *builtin_panel("rgb"), pentile = *builtin_panel("pentile");
     DisplaySettings settings = box;
     settings.tone_map = ToneMap::none;
-    settings.taps = design_taps(rgb, 45, {.separable = true});
+    settings.taps = design_taps(rgb, 45, {.reach = 0.5, .separable = true});
     print("rgb, 9+9", settings);
     settings.taps = design_taps(rgb, 45);
-    print("rgb, 9x9", settings);
+    print("rgb, 15x15", settings);
     settings.refine = design_refine(rgb, 45);
-    print("rgb, 9x9, refined 8", settings);
+    print("rgb, 15x15, refined 5", settings);
     settings.taps = design_taps(pentile, 45);
     settings.refine.reset();
     print("pentile", settings);
     settings.refine = design_refine(pentile, 45);
-    print("pentile, refined 8", settings);
+    print("pentile, refined 5", settings);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -13,10 +13,10 @@ using namespace triad;
 
 namespace {
 
-/// A form of falling weights, symmetric and positive definite: (1, -a) convolved with itself along both axes,
-/// some of it between channels.
+/// A low pass of falling weights, symmetric and positive definite, some of it between channels, that keeps no
+/// pattern more than whole.
 RefineStencil stencil_of(unsigned cell_x, unsigned cell_y, unsigned radius) {
-    RefineStencil s{cell_x, cell_y, radius, {}, 0.0f};
+    RefineStencil s{cell_x, cell_y, radius, {}};
     const int r = int(radius);
     double most = 0;
     for (unsigned phase = 0; phase < cell_x * cell_y; ++phase)
@@ -31,7 +31,7 @@ RefineStencil stencil_of(unsigned cell_x, unsigned cell_y, unsigned radius) {
                     }
             most = std::max(most, sum);
         }
-    s.step = float(1.0 / most);
+    for (float& w : s.weights) w /= float(most);
     return s;
 }
 
@@ -39,40 +39,36 @@ RefineStencil stencil_of(unsigned cell_x, unsigned cell_y, unsigned radius) {
 std::vector<double> expected(const std::vector<double>& d0, int width, int height, const RefineStencil& s,
                              unsigned steps) {
     const int r = int(s.radius), side = 2 * r + 1;
-    std::vector<double> z(d0.size()), y(d0.size()), next(d0.size());
-    for (std::size_t i = 0; i < d0.size(); ++i) y[i] = z[i] = std::clamp(d0[i], 0.0, 1.0);
-    double t = 1;
+    std::vector<double> v(d0.size()), turned(d0.size());
+    const auto cut = [](double x) { return std::clamp(x, 0.0, 1.0); };
+    for (std::size_t i = 0; i < d0.size(); ++i) v[i] = 2 * d0[i] - cut(d0[i]);
     for (unsigned step = 0; step < steps; ++step) {
-        const double next_t = 0.5 * (1 + std::sqrt(1 + 4 * t * t));
-        for (int v = 0; v < height; ++v)
-            for (int u = 0; u < width; ++u)
+        for (std::size_t i = 0; i < v.size(); ++i) turned[i] = 2 * cut(v[i]) - v[i] - d0[i];
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x)
                 for (int c = 0; c < 3; ++c) {
-                    const std::size_t phase = (unsigned(v) % s.cell_y) * s.cell_x + unsigned(u) % s.cell_x;
-                    double gradient = 0;
+                    const std::size_t phase = (unsigned(y) % s.cell_y) * s.cell_x + unsigned(x) % s.cell_x;
+                    double smooth = 0;
                     for (int dy = -r; dy <= r; ++dy)
                         for (int dx = -r; dx <= r; ++dx)
                             for (int from = 0; from < 3; ++from) {
-                                if (v + dy < 0 || v + dy >= height || u + dx < 0 || u + dx >= width) continue;
+                                if (y + dy < 0 || y + dy >= height || x + dx < 0 || x + dx >= width) continue;
                                 const std::size_t at =
-                                    std::size_t((v + dy) * width + u + dx) * 3 + std::size_t(from);
+                                    std::size_t((y + dy) * width + x + dx) * 3 + std::size_t(from);
                                 const std::size_t w = (((phase * 3 + std::size_t(c)) * std::size_t(side) +
                                                         std::size_t(dy + r)) *
                                                            std::size_t(side) +
                                                        std::size_t(dx + r)) *
                                                           3 +
                                                       std::size_t(from);
-                                gradient += double(s.weights[w]) * (y[at] - d0[at]);
+                                smooth += double(s.weights[w]) * turned[at];
                             }
-                    const std::size_t i = std::size_t(v * width + u) * 3 + std::size_t(c);
-                    next[i] = std::clamp(y[i] - double(s.step) * gradient, 0.0, 1.0);
+                    const std::size_t i = std::size_t(y * width + x) * 3 + std::size_t(c);
+                    v[i] += d0[i] - cut(v[i]) + turned[i] - smooth;
                 }
-        for (std::size_t i = 0; i < z.size(); ++i) {
-            y[i] = next[i] + (t - 1) / next_t * (next[i] - z[i]);
-            z[i] = next[i];
-        }
-        t = next_t;
     }
-    return z;
+    for (double& x : v) x = cut(x);
+    return v;
 }
 
 /// Bins of black and white, so that sharp taps leave [0, 1].

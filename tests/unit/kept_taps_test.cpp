@@ -66,7 +66,7 @@ TEST_F(KeptTapsElsewhere, are_read_back_and_told_apart) {
     ASSERT_EQ(number, "\"first_x\":-4");
     std::ofstream(files().front()) << text.replace(text.find(number), number.size(), "\"first_x\":-9");
     EXPECT_EQ(kept_taps(rgb, 45).of(0, 0, 0).first_x, -9) << "the file was not read";
-    kept_taps(rgb, 46), kept_taps(rgb, 45, {.separable = true}), kept_taps(rgb, 45, {.radius = 2});
+    kept_taps(rgb, 46), kept_taps(rgb, 45, {.separable = true}), kept_taps(rgb, 45, {.reach = 2});
     kept_taps(*builtin_panel("bgr"), 45), kept_taps(rgb, 45, {.bins_x = 2}), kept_taps(rgb, 45);
     EXPECT_EQ(files().size(), 6u);
 }

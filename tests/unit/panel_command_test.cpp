@@ -1,6 +1,7 @@
 // triad panel and triad compare --metric perceived, as typed.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -145,4 +146,63 @@ TEST(PerceivedCommand, refuses_what_would_mean_nothing) {
            "cannot say which panel");
     const std::string scene = edge(folder, "scene.exr", 3, {{"triad:spp", "64"}});
     expect("compare " + scene + " " + turned + " --metric perceived --panel bgr", 0, "has scene values");
+}
+
+TEST(PanelCommand, draws_the_chart_of_all_panels) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "chart.png").string();
+    expect("panel --test " + file, 0, "");
+    EXPECT_GE(read_picture(file).width, 3 * 128u);
+    expect("panel --test chart.gif", 1, "chart.gif");
+}
+
+TEST(PerceivedCommand, refuses_small_pictures_with_the_size_that_is_needed) {
+    const TemporaryFolder folder;
+    const std::string large = edge(folder, "large.exr", 3), small = edge(folder, "small.exr", 1);
+    expect("compare " + large + " " + small + " --metric perceived --panel rgb --ppd 45", 0, "scielab");
+    expect("compare " + large + " " + small + " --metric perceived --panel rgb --ppd 90", 7, "32 x 32");
+}
+
+TEST(CompareMaps, show_every_metric_where_the_pictures_differ) {
+    const TemporaryFolder folder;
+    const auto picture = [&](const std::string& name, float at_seven) {
+        Picture p{40, 30, 0, 0, 0, 0, {}, {}};
+        for (const char* channel : {"R", "G", "B"}) {
+            p.channels.push_back({channel, std::vector<float>(40 * 30, 0.5f)});
+            if (*channel == 'G') p.channels.back().values[7] = at_seven;
+        }
+        const std::string path = (folder / name).string();
+        write_exr(path, p);
+        return path;
+    };
+    const std::string a = picture("a.exr", 0.8f), b = picture("b.exr", 0.5f);
+    const std::string map = (folder / "map.exr").string(), image = (folder / "map.png").string();
+    for (const auto& [metric, value] : {std::pair("mae", 0.1),
+                                        {"rmse", 0.3 / std::sqrt(3)},
+                                        {"psnr", 0.3 / std::sqrt(3)},
+                                        {"relmse", 0.03 / (0.25 + 0.01)}}) {
+        expect("compare " + a + " " + b + " --metric " + metric + " --map " + map, 0, metric);
+        const Picture read = read_picture(map);
+        ASSERT_NE(read.find("error"), nullptr) << metric;
+        EXPECT_NEAR(read.find("error")->values[7], value, 1e-6) << metric;
+        EXPECT_EQ(read.find("error")->values[8], 0) << metric;
+        EXPECT_EQ(read.metadata.at("triad:metric"), metric);
+    }
+    expect("compare " + a + " " + b + " --metric flip --map " + map + " --map " + image, 0, "flip");
+    EXPECT_GT(read_picture(map).find("error")->values[7], 0.05);
+    EXPECT_GT(read_picture(image).height, 40u) << "room for the bar";
+    expect("compare " + a + " " + b + " --map x.jpg", 1, "x.jpg");
+}
+
+TEST(PanelCommand, drives_name_their_panel_in_every_format_that_can) {
+    const TemporaryFolder folder;
+    const std::string fine = edge(folder, "fine.exr", 3);
+    for (const char* name : {"drives.png", "drives.exr"}) {
+        const std::string file = (folder / name).string();
+        expect("resolve " + fine + " --panel qd-oled --ppd 60 -o " + file, 0, "");
+        const Metadata data = read_picture(file).metadata;
+        EXPECT_EQ(data.at("triad:panel"), "qd-oled") << name;
+        EXPECT_EQ(data.at("triad:panel_id"), panel_id(builtin_panel("qd-oled").value())) << name;
+        EXPECT_EQ(data.at("triad:ppd"), "60") << name;
+    }
 }

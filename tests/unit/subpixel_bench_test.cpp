@@ -34,7 +34,7 @@ bool has(const std::vector<SubpixelMethod>& methods, const std::string& name) {
 }  // namespace
 
 TEST(SubpixelScore, a_constant_error_is_its_value_without_doubt) {
-    const TileErrors tiles = tile_errors(noisy(2, 0, 1), 3);
+    const TileErrors tiles = tile_errors(noisy(2, 0, 1), 3, 8);
     EXPECT_EQ(tiles.samples.size(), 4u);  // 16 px within the border
     const ErrorInterval e = error_interval(tiles);
     EXPECT_NEAR(e.value, 2, 1e-6);
@@ -58,8 +58,8 @@ TEST(SubpixelScore, pairs_see_a_difference_that_single_intervals_hide) {
 
 TEST(SubpixelScore, repetitions_add_up_to_their_mean_square) {
     TileErrors sum;
-    add(sum, tile_errors(noisy(3, 0, 1), 3));
-    add(sum, tile_errors(noisy(4, 0, 1), 3));
+    add(sum, tile_errors(noisy(3, 0, 1), 3, 8));
+    add(sum, tile_errors(noisy(4, 0, 1), 3, 8));
     EXPECT_NEAR(error_interval(sum).value, std::sqrt(12.5), 1e-6);
     TileErrors other;
     other.samples = {1};

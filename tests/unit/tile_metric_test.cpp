@@ -35,8 +35,8 @@ RgbImage picture(unsigned width, unsigned height) {
 }  // namespace
 
 TEST(TileMetric, agrees_with_the_metric_on_every_panel_and_eye) {
-    const RgbImage reference = picture(40, 32);
-    const RgbImage drives = random_image(40, 32, 7);
+    const RgbImage reference = picture(48, 40);
+    const RgbImage drives = random_image(48, 40, 7);
     for (const char* name : {"rgb", "vbgr", "qd-oled@90", "pentile", "woled", "off"})
         for (const double ppd : {30.0, 60.0, 110.0}) {
             const Panel panel = builtin_panel(name).value();
@@ -48,7 +48,7 @@ TEST(TileMetric, agrees_with_the_metric_on_every_panel_and_eye) {
                 EXPECT_NEAR(error_interval(tiles[e]).value, wanted.error, 0.005 * wanted.error)
                     << name << " " << ppd << " " << eye_name(all_eyes[e]);
                 EXPECT_NEAR(root_mean(tiles[e].colour, tiles[e].samples), wanted.colour, 0.01 * wanted.error);
-                const TileErrors whole = tile_errors(wanted, 6);
+                const TileErrors whole = tile_errors(wanted, 6, perceived_border(ppd));
                 ASSERT_EQ(whole.samples.size(), tiles[e].samples.size());
                 for (std::size_t t = 0; t < whole.samples.size(); ++t)
                     EXPECT_NEAR(std::sqrt(tiles[e].lightness[t] / tiles[e].samples[t]),
@@ -58,7 +58,7 @@ TEST(TileMetric, agrees_with_the_metric_on_every_panel_and_eye) {
 }
 
 TEST(TileMetric, has_no_more_samples_than_eyes_can_tell_apart) {
-    const RgbImage reference = picture(32, 32);
+    const RgbImage reference = picture(36, 36);
     const Panel panel = builtin_panel("rgb").value();
     EXPECT_EQ(TileMetric(panel, 110, reference, 6).map_samples(), 2u);
     EXPECT_EQ(TileMetric(panel, 5, reference, 6).map_samples(), 6u);
@@ -66,4 +66,5 @@ TEST(TileMetric, has_no_more_samples_than_eyes_can_tell_apart) {
 
 TEST(TileMetric, refuses_pictures_that_cells_do_not_fill) {
     EXPECT_THROW(TileMetric(builtin_panel("pentile").value(), 45, picture(33, 32), 6), Error);
+    EXPECT_THROW(TileMetric(builtin_panel("rgb").value(), 110, picture(36, 34), 6), Error);
 }
