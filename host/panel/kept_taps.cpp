@@ -20,7 +20,7 @@ namespace {
 
 /// To be raised when the designer answers otherwise: what is kept is out of date then, which
 /// KeptTaps.are_what_the_designer_says finds out.
-constexpr const char* schema = "triad.taps/2";
+constexpr const char* schema = "triad.taps/3";
 
 fs::path path_of(const Panel& panel, double ppd, const TapDesign& design) {
     const fs::path cache = cache_folder();
