@@ -106,14 +106,14 @@ std::string sights_of(const SubpixelSight& sight, const PanelView& view) {
         format("<h3>%u x %u pixels at %u, %u, by %u rays per pixel</h3>\n<div class=\"pictures\">\n",
                crop_width, crop_height, part.x, part.y, sight.rays);
     html += "<figure class=\"first\"><img alt=\"\" src=\"" +
-            data_uri("image/png", png_of(from_afar(cut_out(sight.reference, part, s), spread))) +
+            data_uri("image/png", png_of(cut_out(from_afar(sight.reference, spread), part, s))) +
             "\"><figcaption>what should be seen from afar</figcaption></figure>\n</div>\n";
     for (std::size_t i = 0; i < sight.drives.size(); ++i) {
         const auto& [method, drives] = sight.drives[i];
         html +=
             "<div class=\"pictures\">\n" +
             figure(png_of(magnified(view.panel, cut_out(drives, part, 1), zoom)), method + ", on the panel") +
-            figure(png_of(from_afar(cut_out(simulate_panel(view.panel, drives, s), part, s), spread)),
+            figure(png_of(cut_out(from_afar(simulate_panel(view.panel, drives, s), spread), part, s)),
                    method + ", from afar") +
             figure(false_colour_png(maps[i], crop_width * s, crop_height * s, scale),
                    method + format(", error from 0 (dark) to %g (pale)", scale.high)) +
