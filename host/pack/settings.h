@@ -47,9 +47,9 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     unsigned max_depth = 0;  ///< edges of a path; 0: no limit, Russian roulette ends it
     /// Roulette spares a path that carries more than this throughput and kills the others in proportion. No
-    /// value biases. Measured (docs/performance.md): 0.5 has the least error for its time, 1 the most samples
-    /// for it; the default lies between.
-    double roulette = 0.8;
+    /// value biases; the default has the least error for its rays over many scenes
+    /// (docs/measurements/2026-11-23-roulette.md).
+    double roulette = 0.4;
     /// Random numbers hashed for every sample alone, instead of Sobol's sequence: more error, but known laws.
     bool independent = false;
     Spectral spectral = Spectral::automatic;
