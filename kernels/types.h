@@ -520,9 +520,9 @@ TRIAD_SIZE(PathRecord, 32);
 #define TONE_MAP_ACES 2u
 #define TONE_MAP_AGX 3u
 
-/* Floats that the tone maps of noisy bins keep of a pixel (kernels/subpixel/noise.h): mean radiance and alpha
- * of its bins; where the tangent touches; what a display shows of that; the share of noise. */
-#define NOISE_RECORD 13
+/* Tone maps of noisy bins (kernels/subpixel/noise.h): floats kept of a pixel, pixels looked at around. */
+#define NOISE_RECORD 20
+#define NOISE_REACH 3
 
 /* When the pipeline from bins to drives (kernels/subpixel/) maps tones */
 #define TONE_PER_PIXEL 0u   /* what the taps have added up */

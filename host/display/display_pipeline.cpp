@@ -135,7 +135,8 @@ void DisplayPipeline::drive_rows(const Rows& wanted, const Rows& made, float* di
                   plan_.separable()
                       ? plan_.channels() * plan_.cell_x() * plan_.columns() * bins_.stride * sizeof(float)
                       : 0});
-    const std::size_t rows = rows_that_fit(bins_bytes, row_bytes, plan_.up() + plan_.down() + 2);
+    const std::size_t rows =
+        rows_that_fit(bins_bytes, row_bytes, plan_.up() + plan_.down() + 2 * std::size_t(rows_around()));
     for (std::size_t begin = made.begin; begin < made.end; begin += rows)
         tap_rows({begin, std::min(begin + rows, made.end)}, made, asked);
     const Buffer shown = refine_steps_ > 0 ? refine(asked, made, bytes) : asked;

@@ -59,6 +59,7 @@ class DisplayPipeline {
     dev::DisplaySlab slab_of(const Rows& rows, std::size_t source_row) const;
     void write_slab(const dev::DisplaySlab& slab);
     Rows source_rows(const Rows& rows) const;
+    std::ptrdiff_t rows_around() const;
     void map_rows(const Rows& rows);
     void tap_rows(const Rows& rows, const Rows& made, const Buffer& drives);
     Buffer refine(const Buffer& asked, const Rows& made, std::size_t bytes);

@@ -6,13 +6,16 @@
 
 namespace triad {
 
+/// Rows that the bins of a row need on each side: the last pixels may lack some, and noise shows in the bins
+/// and the pixels around.
+std::ptrdiff_t DisplayPipeline::rows_around() const { return 1 + (source_.halves ? NOISE_REACH : 0); }
+
 /// Rows of the source's buffers that some rows of the picture need.
 DisplayPipeline::Rows DisplayPipeline::source_rows(const Rows& rows) const {
-    // Taps reach over an edge as far as their mirror image reaches in. One more row: the last pixels may
-    // lack bins, and the noise of a pixel shows in the bins around it.
+    // Taps reach over an edge as far as their mirror image reaches in.
     const auto height = std::ptrdiff_t(source_.height);
-    const std::ptrdiff_t above = std::ptrdiff_t(rows.begin) - plan_.up() - 1,
-                         below = std::ptrdiff_t(rows.end) + plan_.down() + 1;
+    const std::ptrdiff_t above = std::ptrdiff_t(rows.begin) - plan_.up() - rows_around(),
+                         below = std::ptrdiff_t(rows.end) + plan_.down() + rows_around();
     std::ptrdiff_t first = std::max<std::ptrdiff_t>(above, 0), end = std::min(below, height);
     if (above < 0) end = std::max(end, std::min(-above, height));
     if (below > height) first = std::min(first, std::max<std::ptrdiff_t>(0, 2 * height - below));
@@ -41,6 +44,8 @@ void DisplayPipeline::map_rows(const Rows& rows) {
         device_.run(program.kernel("average_film"), means, pixels);
         device_.run(program.kernel("weigh_noise"),
                     Arguments(means).add(source_.halves(device_, from.begin, from.count())), pixels);
+        device_.run(program.kernel("mend_noise"),
+                    Arguments().add(slab_).add(means_).add(std::uint32_t(from.count())), pixels);
         device_.run(program.kernel("map_noisy_film"), Arguments(map).add(means_), items);
     } else {
         device_.run(program.kernel(source_.kernel), map, items);

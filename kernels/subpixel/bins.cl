@@ -118,6 +118,7 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
     if (y >= rows) return;
     const uint bins_x = slab->bins[0], bins_y = slab->bins[1], bins = bins_x * bins_y;
     float above[FILM_MOST_BINS + 2];
+    Vec4 chess[2] = {vec4_splat(0.0f), vec4_splat(0.0f)}; /* its own bins, as on a chessboard */
     NoiseSums noise = {0.0f, 0.0f, 0.0f, 0u, 0u};
     for (int v = -1; v <= (int)bins_y; ++v) {
         float left = 0.0f;
@@ -129,6 +130,8 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
             const Vec4 bin = film_bin(slab, sums, samples, (size_t)at * slab->width + column / bins_x,
                                       row % bins_y * bins_x + column % bins_x);
             const float value = noise_value(bin);
+            if (u >= 0 && u < (int)bins_x && v >= 0 && v < (int)bins_y)
+                chess[(u ^ v) & 1] = vec4_add(chess[(u ^ v) & 1], bin);
             noise_add(&noise, value);
             if (u >= 0) noise_add_pair(&noise, value, left);
             if (v >= 0) noise_add_pair(&noise, value, above[u + 1]);
@@ -163,7 +166,42 @@ kernel void weigh_noise(global const DisplaySlab* slab, global const long* sums,
     const Vec4 mean = vec4_load(to, 0), point = vec4_mix(mean, around, smooth);
     vec4_store(point, to, 1);
     vec4_store(display_of_bin(slab, point), to, 2);
-    to[12] = share;
+    to[NOISE_SHARE] = share;
+    Vec3 lost = vec3_splat(0.0f);
+    if (halves_known) {
+        lost = noise_lost(slab, vec3_scale(vec3_load(first, pixel), slab->exposure),
+                          vec3_scale(vec3_load(second, pixel), slab->exposure), mean.w,
+                          math_square(weights[pixel]));
+    } else if (bins > 1u) {
+        /* of bins, structure is to be left out as where they are evened out */
+        const float a = (float)((bins + 1u) / 2u), b = (float)(bins / 2u);
+        lost = noise_lost(slab, vec3_scale(vec4_xyz(chess[0]), 1.0f / a),
+                          vec3_scale(vec4_xyz(chess[1]), 1.0f / b), mean.w,
+                          share * share * a * b / math_square(a + b));
+    }
+    vec3_store(lost, to + NOISE_LOST, 0);
+    /* If a point of variance A and a mean of variance B have the covariance C, the tangent at the point loses
+     * by 2 C - A at the mean, not by B: (1 - s) of the mean and s of nine like it make that 1 - 8/9 s^2 of B.
+     */
+    to[NOISE_LEFT] = fma(-8.0f / 9.0f * smooth, smooth, 1.0f);
+}
+
+/* What noise takes, as the pixels around tell as well: one alone hardly knows it, and it changes slowly. */
+kernel void mend_noise(global const DisplaySlab* slab, global float* means, uint rows) {
+    const uint pixel = (uint)get_global_id(0), x = pixel % slab->width, y = pixel / slab->width;
+    if (y >= rows) return;
+    Vec3 lost = vec3_splat(0.0f);
+    for (int v = -NOISE_REACH; v <= NOISE_REACH; ++v) {
+        const uint row = display_reflect((int)(slab->source_row + y) + v, slab->height);
+        const uint at = math_min_uint(row - math_min_uint(slab->source_row, row), rows - 1u) * slab->width;
+        for (int u = -NOISE_REACH; u <= NOISE_REACH; ++u) {
+            const size_t near = at + display_reflect((int)x + u, slab->width);
+            lost = vec3_add(vec3_load(means + near * NOISE_RECORD + NOISE_LOST, 0), lost);
+        }
+    }
+    global float* to = means + (size_t)pixel * NOISE_RECORD;
+    const int side = 2 * NOISE_REACH + 1;
+    vec3_store(vec3_scale(lost, to[NOISE_LEFT] / (float)(side * side)), to + NOISE_MEND, 0);
 }
 
 /* image: [row][column][R, G, B, alpha], colour associated; of encoded ones not, as in their files. */
