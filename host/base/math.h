@@ -36,6 +36,10 @@ struct Bounds {
     double radius() const { return empty() ? 0.0 : 0.5 * glm::length(size()); }
 };
 
+inline void to_floats(float out[3], const dvec3& v) {
+    for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
+}
+
 inline dvec3 transform_point(const dmat4& m, const dvec3& p) { return dvec3(m * dvec4(p, 1.0)); }
 inline dvec3 transform_vector(const dmat4& m, const dvec3& v) { return dvec3(m * dvec4(v, 0.0)); }
 

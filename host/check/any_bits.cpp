@@ -4,7 +4,7 @@
 
 #include "check/cases.h"
 #include "check/measurements.h"
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 
 namespace triad {
 namespace {
@@ -48,9 +48,9 @@ void rays_of_any_bits(Check& check) {
     any_bits::Words words(25);
     std::vector<dev::Ray> rays(check.count(1 << 21, 2048));
     for (dev::Ray& r : rays) r = any_ray(words);
-    const Tracer tracer(check.device, world);
-    const auto hits = tracer.closest(rays);
-    const auto occluded = tracer.occluded(rays);
+    const RayCaster caster(check.device, world);
+    const auto hits = caster.closest(rays);
+    const auto occluded = caster.occluded(rays);
     std::size_t found = 0, wrong = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const dev::Hit& hit = hits[i];

@@ -10,7 +10,7 @@ namespace {
 
 using namespace picture_case;
 
-const char* const source = R"(#include "common/random.h"
+const char* const lights_source = R"(#include "common/random.h"
 #include "shading/light.h"
 /* Samples seen from the origin: (direction, 1 / pdf), (pdf of that direction, weight, map coordinates). */
 __kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
@@ -70,7 +70,7 @@ void environment_samples(Check& check) {
     const OnDevice world = on_device(check.device, b.scene);
 
     const std::size_t count = check.count(1 << 18, 1024);
-    const auto samples = run_kernel<Four>(check.device, source, "draw", world.arguments, count, 2);
+    const auto samples = run_kernel<Four>(check.device, lights_source, "draw", world.arguments, count, 2);
     for (std::size_t i = 0; i < count; ++i) {
         const Four &a = samples[2 * i], &s = samples[2 * i + 1];
         const dvec3 d(a[0], a[1], a[2]);
@@ -97,7 +97,7 @@ void any_direction(Check& check) {
     std::vector<float> directions(count * 3);
     for (float& d : directions) d = words.number();
     const auto seen =
-        run_kernel<Four>(check.device, source, "look",
+        run_kernel<Four>(check.device, lights_source, "look",
                          Arguments().add(world.arguments).add(check.device.upload(directions)), count);
     std::size_t wrong = 0, numbers = 0;
     for (const Four& s : seen) numbers += s[0] == s[0], wrong += s[0] == s[0] && s[0] != 2.0f;
@@ -114,7 +114,7 @@ void tiny_far_light(Check& check) {
     const std::size_t count = check.count(4096);
     double mean = 0;
     for (std::size_t i = 0;
-         const Four& s : run_kernel<Four>(check.device, source, "draw", world.arguments, count, 2))
+         const Four& s : run_kernel<Four>(check.device, lights_source, "draw", world.arguments, count, 2))
         if (i++ % 2) mean += s[1] / double(count);
     check.near(mean * 1e24, 1, 1e-4, "irradiance over 1e-24");
 }

@@ -13,7 +13,7 @@
 namespace triad {
 namespace {
 
-const char* const source = R"(#include "common/math.h"
+const char* const maths_source = R"(#include "common/math.h"
 TRIAD_FUNCTION float stored4(float x) { float to[5]; vstore4((float4)(0.0f, 0.0f, 0.0f, x), 0, to + 1); return to[4]; }
 TRIAD_FUNCTION float stored8(float x) { float to[9]; vstore8((float8)(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, x), 0, to + 1); return to[8]; }
 __kernel void evaluate(__global float* out, __global const float* a, __global const float* b, uint count) {
@@ -25,7 +25,7 @@ __kernel void evaluate(__global float* out, __global const float* a, __global co
 std::vector<float> evaluate(Check& check, const std::string& expression, const std::vector<float>& a,
                             std::vector<float> b = {}) {
     if (b.empty()) b.resize(a.size());
-    std::string text = source;
+    std::string text = maths_source;
     text.replace(text.find("EXPRESSION"), 10, expression);
     return run_kernel<float>(check.device, text, "evaluate",
                              Arguments().add(check.device.upload(a)).add(check.device.upload(b)), a.size());

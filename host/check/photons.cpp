@@ -13,7 +13,7 @@ namespace {
 
 using namespace picture_case;
 
-const char* const source = R"(#include "common/language.h"
+const char* const photons_source = R"(#include "common/language.h"
 #include "shading/photon_map.h"
 /* What a white Lambertian surface gathers at each point: from the grid, and from all photons. */
 kernel void gather(global const Frame* frame, global const PhotonMap* map, global const Photon* photons,
@@ -69,7 +69,7 @@ void expect_grid_finds_all(Check& check, double extent, double radius, unsigned 
         queries[3 * i] = far, queries[3 * i + 1] = i % 2 ? -far : 0.0f, queries[3 * i + 2] = far, ++i;
     Device& device = check.device;
     const Options plain = {{"TRIAD_SPECULAR", "0"}, {"TRIAD_TRANSMISSION", "0"}, {"TRIAD_DISPERSION", "0"}};
-    const Program program = device.build_source("photon_grid.cl", source, plain);
+    const Program program = device.build_source("photon_grid.cl", photons_source, plain);
     PhotonMap map(device, photons);
     map.compile(plain);
     dev::Frame frame{};

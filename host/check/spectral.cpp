@@ -12,7 +12,7 @@ namespace {
 
 using namespace picture_case;
 
-const char* const source = R"(#include "common/frame.h"
+const char* const spectral_source = R"(#include "common/frame.h"
 #include "common/spectrum.h"
 #include "shading/bsdf.h"
 /* (filter, wavelength) of evenly spread numbers. */
@@ -92,7 +92,7 @@ void filter_has_mean_one(Check& check) {
     for (const Spectral spectral : {Spectral::automatic, Spectral::classic}) {
         const PackedSurfaces packed = packed_glasses({*find_glass("F2")}, spectral);
         const std::size_t count = std::size_t(1) << 18;
-        const auto drawn = run_kernel<Four>(check.device, source, "draw",
+        const auto drawn = run_kernel<Four>(check.device, spectral_source, "draw",
                                             Arguments().add(check.device.upload(packed.spectrum)), count);
         dvec3 sum(0.0), squares(0.0);
         float last = 0;
@@ -117,7 +117,7 @@ void indices_are_the_formulas(Check& check) {
     std::vector<float> wavelengths;
     for (std::size_t i = 0; i < check.count(1 << 16, 4096); ++i)
         wavelengths.push_back(static_cast<float>(380 + 400 * std::fmod(0.6180339887 * double(i), 1.0)));
-    const auto found = run_kernel<float>(check.device, source, "look_up",
+    const auto found = run_kernel<float>(check.device, spectral_source, "look_up",
                                          Arguments()
                                              .add(check.device.upload(packed.indices))
                                              .add(check.device.upload(wavelengths))
@@ -158,7 +158,7 @@ void prism_minimum_deviation(Check& check) {
                 rays.push_back({d.x, d.y, d.z, static_cast<float>(line)});
             }
         const PackedSurfaces packed = packed_glasses({glass});
-        const auto out = run_kernel<Four>(check.device, source, "cross_prism",
+        const auto out = run_kernel<Four>(check.device, spectral_source, "cross_prism",
                                           Arguments()
                                               .add(check.device.upload(rays))
                                               .add(check.device.upload(normals))
@@ -184,7 +184,7 @@ void prism_minimum_deviation(Check& check) {
 std::vector<Four> through_sphere(Check& check, const char* glass, const std::vector<Two>& rays,
                                  std::uint32_t reflections) {
     const PackedSurfaces packed = packed_glasses({*find_glass(glass)});
-    return run_kernel<Four>(check.device, source, "cross_sphere",
+    return run_kernel<Four>(check.device, spectral_source, "cross_sphere",
                             Arguments()
                                 .add(check.device.upload(rays))
                                 .add(reflections)

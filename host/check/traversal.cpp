@@ -3,7 +3,7 @@
 #include "check/cases.h"
 #include "check/hits.h"
 #include "check/measurements.h"
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 
 namespace triad {
 namespace {
@@ -21,7 +21,7 @@ void watertight_edges(Check& check) {
         world.origin_reach = offset + 2.0f;
         const Primitive sphere = shapes::lat_long_sphere(centre, 1.0f, 64, 32);
         world.add(0, sphere);
-        const Tracer tracer(check.device, world);
+        const RayCaster caster(check.device, world);
         Random random(1);
         std::vector<dev::Ray> rays;
         for (std::size_t i = 0; i < count; ++i) {
@@ -31,9 +31,9 @@ void watertight_edges(Check& check) {
             const double along = i % 2 ? random() : 0.0;  // odd: on an edge, even: at a corner
             rays.push_back(ray_towards(dvec3(centre) + random.in_cube(0.4), a + along * (b - a)));
         }
-        check.at_most(count_misses(tracer.closest(rays)), 0, "rays of ", rays.size(), " missed at offset ",
+        check.at_most(count_misses(caster.closest(rays)), 0, "rays of ", rays.size(), " missed at offset ",
                       offset);
-        const auto occluded = tracer.occluded(rays);
+        const auto occluded = caster.occluded(rays);
         check.at_most(std::count(occluded.begin(), occluded.end(), 0u), 0, "shadow rays missed at offset ",
                       offset);
     }
@@ -57,7 +57,7 @@ void watertight_instance(Check& check) {
         rays.push_back(ray_towards(transform_point(to_world, random.in_cube(0.4)),
                                    transform_point(to_world, a + random() * (b - a))));
     }
-    check.at_most(count_misses(Tracer(check.device, world).closest(rays)), 0, "rays missed");
+    check.at_most(count_misses(RayCaster(check.device, world).closest(rays)), 0, "rays missed");
 }
 
 // C2
@@ -76,7 +76,7 @@ void rays_in_planes_of_boxes(Check& check) {
                     rays.push_back(ray(dvec3(x - 0.5, y, sign), dvec3(0.5, zero, -sign)));
                 }
     std::erase_if(rays, [](const dev::Ray& r) { return r.origin[1] < -8 || r.origin[0] < -8; });
-    check.at_most(count_misses(Tracer(check.device, world).closest(rays)), 0, "rays of ", rays.size(),
+    check.at_most(count_misses(RayCaster(check.device, world).closest(rays)), 0, "rays of ", rays.size(),
                   " missed");
 }
 
@@ -93,7 +93,7 @@ void rays_along_axes(Check& check) {
                     o[(axis + 1) % 3] = a, o[(axis + 2) % 3] = b, d[axis] = sign;
                     rays.push_back(ray(o, d));
                 }
-    const auto hits = Tracer(check.device, world).closest(rays);
+    const auto hits = RayCaster(check.device, world).closest(rays);
     check.at_most(count_misses(hits), 0, "rays missed");
     for (const dev::Hit& hit : hits) check.equal(hit.t, 1.0f, "t");
 }
@@ -123,9 +123,9 @@ void slab_rounding(Check& check) {
             const dvec3 p = dvec3(t[0]) + a * dvec3(t[1] - t[0]) + b * dvec3(t[2] - t[0]);
             rays.push_back(ray_towards(random.in_cube(10.0), p));
         }
-        const auto hits = Tracer(check.device, world).closest(rays);
+        const auto hits = RayCaster(check.device, world).closest(rays);
         world.origin_reach = 1e6f;
-        const auto expected = Tracer(check.device, world).closest(rays);
+        const auto expected = RayCaster(check.device, world).closest(rays);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (expected[i].primitive == TRIAD_NONE) continue;
             ++found;
@@ -152,7 +152,7 @@ void no_self_intersection(Check& check) {
                     c(centre + random.in_cube(scale));
                 world.add(0, a, b, c);
                 world.add(0, b, a, c);  // its exact duplicate, wound the other way
-                const Tracer tracer(check.device, world);
+                const RayCaster caster(check.device, world);
                 std::vector<dev::Ray> rays;
                 for (int i = 0; i < rays_each; ++i) {
                     double u = random(), v = random();
@@ -164,8 +164,8 @@ void no_self_intersection(Check& check) {
                     rays.push_back(r);
                 }
                 spawned += rays.size();
-                again += rays.size() - count_misses(tracer.closest(rays));
-                for (const std::uint32_t occluded : tracer.occluded(rays)) again += occluded;
+                again += rays.size() - count_misses(caster.closest(rays));
+                for (const std::uint32_t occluded : caster.occluded(rays)) again += occluded;
             }
             check.at_most(double(again), 0, "re-hits of ", spawned, " at scale ", scale, ", offset ", offset);
         }
@@ -180,7 +180,7 @@ void skip_is_of_one_instance(Check& check) {
     dev::Ray r = ray({0, 0, 0}, {0, 0, -1});
     r.skip_instance = 1;
     r.skip_primitive = 0;
-    const auto hits = Tracer(check.device, world).closest({r});
+    const auto hits = RayCaster(check.device, world).closest({r});
     check.equal(hits[0].instance, 2u, "instance");
     check.equal(hits[0].t, 2.0f, "t");
 }
@@ -205,7 +205,7 @@ void scaling_changes_no_bit(Check& check) {
                                i % 16 ? direction : dvec3(0, i % 32 ? -1 : 1, 0),
                                i % 5 ? float(infinity) : 1.5f * scale));
         }
-        return Tracer(check.device, world).closest(rays);
+        return RayCaster(check.device, world).closest(rays);
     };
     const auto base = hits_at(1.0f);
     check.above(base.size() - count_misses(base), count / 5, "hits");

@@ -3,7 +3,7 @@
 #include "check/cases.h"
 #include "check/hits.h"
 #include "check/measurements.h"
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 
 namespace triad {
 namespace {
@@ -26,8 +26,8 @@ void degenerate_triangles(Check& check) {
     }
     std::vector<dev::Ray> rays;
     for (int i = 0; i < 20000; ++i) rays.push_back(ray(random.in_cube(2.0), random.direction()));
-    const auto expected = Tracer(check.device, clean).closest(rays),
-               hits = Tracer(check.device, dirty).closest(rays);
+    const auto expected = RayCaster(check.device, clean).closest(rays),
+               hits = RayCaster(check.device, dirty).closest(rays);
     for (std::size_t i = 0; i < rays.size(); ++i) expect_same(check, hits[i], expected[i], 1.0f, i);
 }
 
@@ -40,7 +40,8 @@ void sliver_blocks_no_ray(Check& check) {
     for (int i = 0; i < 10000; ++i)
         rays.push_back(
             ray({random.between(-1, 1), random.between(0.001, 1) * (i % 2 ? 1 : -1), 1}, {0, 0, -1}));
-    check.equal(count_misses(Tracer(check.device, world).closest(rays)), rays.size(), "misses of a sliver");
+    check.equal(count_misses(RayCaster(check.device, world).closest(rays)), rays.size(),
+                "misses of a sliver");
 }
 
 // C7
@@ -66,7 +67,7 @@ void coincident_triangles(Check& check) {
             for (BvhTriangle& t : triangles)
                 if (t.primitive % 2) std::swap(t.corner[0], t.corner[2]);
         std::size_t hit = 0;
-        for (const dev::Hit& h : Tracer(check.device, world).closest(rays))
+        for (const dev::Hit& h : RayCaster(check.device, world).closest(rays))
             if (h.primitive != TRIAD_NONE) {
                 check.holds(h.primitive < size, "a higher id wins in order ", order);
                 ++hit;
@@ -86,7 +87,7 @@ void coincident_instances(Check& check) {
     std::vector<dev::Ray> rays;
     for (int i = 0; i < 5000; ++i) rays.push_back(ray(random.in_cube(3.0), random.direction()));
     std::size_t hit = 0;
-    for (const dev::Hit& h : Tracer(check.device, world).closest(rays))
+    for (const dev::Hit& h : RayCaster(check.device, world).closest(rays))
         if (h.primitive != TRIAD_NONE) {
             check.equal(h.instance, 1u, "instance");
             ++hit;
@@ -103,7 +104,7 @@ void thousand_in_one_place(Check& check) {
     Random random(13);
     std::vector<dev::Ray> rays;
     for (int i = 0; i < 300; ++i) rays.push_back(ray(random.in_cube(2.0), random.direction()));
-    const auto hits = Tracer(check.device, world).closest(rays);
+    const auto hits = RayCaster(check.device, world).closest(rays);
     std::size_t compared = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Reference expected = brute_force(world, rays[i]);

@@ -3,7 +3,7 @@
 
 #include "check/cases.h"
 #include "check/measurements.h"
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 
 namespace triad {
 namespace {
@@ -13,9 +13,9 @@ using namespace traversal_case;
 /// Compares every ray whose answer is not a matter of rounding; returns how many were compared.
 std::size_t expect_reference(Check& check, const World& world, const std::vector<dev::Ray>& rays,
                              double size) {
-    const Tracer tracer(check.device, world);
-    const auto hits = tracer.closest(rays);
-    const auto occluded = tracer.occluded(rays);
+    const RayCaster caster(check.device, world);
+    const auto hits = caster.closest(rays);
+    const auto occluded = caster.occluded(rays);
     std::size_t compared = 0, wrong = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         check.equal(occluded[i], hits[i].primitive != TRIAD_NONE ? 1u : 0u, "occlusion of ray ", i);
@@ -76,10 +76,10 @@ void agrees_at_every_scale(Check& check) {
 }
 
 void empty_world(Check& check) {
-    const Tracer tracer(check.device, World{});
+    const RayCaster caster(check.device, World{});
     const auto rays = random_rays(100, 1.0, 3);
-    for (const dev::Hit& hit : tracer.closest(rays)) check.equal(hit.primitive, TRIAD_NONE, "primitive");
-    for (const std::uint32_t occluded : tracer.occluded(rays)) check.equal(occluded, 0u, "occlusion");
+    for (const dev::Hit& hit : caster.closest(rays)) check.equal(hit.primitive, TRIAD_NONE, "primitive");
+    for (const std::uint32_t occluded : caster.occluded(rays)) check.equal(occluded, 0u, "occlusion");
 }
 
 void agrees_with_instances(Check& check) {
@@ -118,13 +118,13 @@ void agrees_with_tiny_and_huge_instances(Check& check) {
 
 void length_of_direction_scales_t(Check& check) {
     const World world = soup(200, 1.0, 0.4, 31);
-    const Tracer tracer(check.device, world);
+    const RayCaster caster(check.device, world);
     auto rays = random_rays(2000, 2.0, 37);
     for (dev::Ray& r : rays) r.t_max = std::numeric_limits<float>::infinity();
-    const auto unit = tracer.closest(rays);
+    const auto unit = caster.closest(rays);
     for (dev::Ray& r : rays)
         for (float& d : r.direction) d *= 4.0f;
-    const auto scaled = tracer.closest(rays);
+    const auto scaled = caster.closest(rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         check.equal(scaled[i].primitive, unit[i].primitive, "primitive");
         check.equal(scaled[i].t * 4.0f, unit[i].t, "t");
@@ -136,12 +136,12 @@ void t_max_counts(Check& check) {
     World world;
     world.origin_reach = 1.0f;
     world.add(0, shapes::quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 5, 5));
-    const Tracer tracer(check.device, world);
+    const RayCaster caster(check.device, world);
     const std::vector<dev::Ray> rays{ray({0.1, 0.3, 1}, {0, 0, -1}, 1.0f),
                                      ray({0.1, 0.3, 1}, {0, 0, -1}, 0.99999994f),
                                      ray({0.1, 0.3, 0}, {0, 0, -1})};
-    const auto hits = tracer.closest(rays);
-    const auto occluded = tracer.occluded(rays);
+    const auto hits = caster.closest(rays);
+    const auto occluded = caster.occluded(rays);
     check.equal(hits[0].t, 1.0f, "t at t_max");
     check.equal(occluded[0], 1u, "occlusion at t_max");
     check.equal(hits[1].primitive, TRIAD_NONE, "hit beyond t_max");
@@ -152,8 +152,8 @@ void t_max_counts(Check& check) {
 void same_bits_without_instances(Check& check) {
     const World world = soup(500, 1.0, 0.3, 41);
     const auto rays = random_rays(4000, 2.0, 43);
-    const auto general = Tracer(check.device, world).closest(rays),
-               special = Tracer(check.device, world, {{"TRIAD_INSTANCES", "0"}}).closest(rays);
+    const auto general = RayCaster(check.device, world).closest(rays),
+               special = RayCaster(check.device, world, {{"TRIAD_INSTANCES", "0"}}).closest(rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         check.equal(general[i].primitive, special[i].primitive, "primitive");
         check.equal(general[i].t, special[i].t, "t");
@@ -188,9 +188,9 @@ void same_hits_in_every_format(Check& check) {
     std::vector<std::vector<std::uint32_t>> occluded;
     for (const BvhFormat format : all_bvh_formats) {
         const WithFormat walks(check.device, format);
-        const Tracer tracer(check.device, world);
-        hits.push_back(tracer.closest(rays));
-        occluded.push_back(tracer.occluded(rays));
+        const RayCaster caster(check.device, world);
+        hits.push_back(caster.closest(rays));
+        occluded.push_back(caster.occluded(rays));
     }
     std::size_t hit = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -23,8 +23,6 @@ namespace fs = std::filesystem;
 namespace triad {
 namespace {
 
-constexpr double usual_ppd = 45;
-
 struct SubpixelOptions {
     std::vector<std::string> scenes;
     std::vector<std::string> panels = {"rgb"};

@@ -16,8 +16,6 @@
 namespace triad {
 namespace {
 
-constexpr double usual_ppd = 45;  // 27 inches, 2560 x 1440, from 60 cm
-
 struct Shown {
     std::string path;
     Picture file;

@@ -17,7 +17,6 @@
 namespace triad {
 namespace {
 
-constexpr double usual_ppd = 45;
 constexpr std::size_t most_samples = std::size_t(1) << 28;  // of a drawing
 
 struct PanelOptions {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace triad::opencl {
 namespace {
 
-constexpr const char* schema = "triad.died/1";
+constexpr const char* death_schema = "triad.died/1";
 constexpr const char *compiling = "compiling", *running = "running";
 
 /// PoCL's folder as it chooses it.
@@ -101,7 +101,7 @@ std::string pocl_cache_fault(const fs::path& folder) {
 void keep(const DeviceInfo& device, const std::string& why) {
     const fs::path path = kept_path(device, "died");
     if (path.empty()) return;
-    const nlohmann::json json{{"schema", schema},
+    const nlohmann::json json{{"schema", death_schema},
                               {"device", device.name},
                               {"driver", device.driver},
                               {"platform", device.platform},
@@ -136,8 +136,8 @@ std::string kept_reason(const DeviceInfo& device) {
     std::ifstream file(path);
     if (path.empty() || !file || is_older_than_a_day(path)) return {};
     const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object() || json.value("schema", nlohmann::json()) != schema || !json.contains("why") ||
-        !json["why"].is_string())
+    if (!json.is_object() || json.value("schema", nlohmann::json()) != death_schema ||
+        !json.contains("why") || !json["why"].is_string())
         return {};
     return json["why"].get<std::string>() +
            " It is tried again with another driver or version of Triad, after a day, or without " +

@@ -29,7 +29,7 @@ using Problems = std::vector<PlatformProblem>;
 constexpr const char* trial_word = "--try-drivers";  // FILE LIBRARY...: what the child is started with
 constexpr const char* survived = "survived";         // the last line of its FILE
 constexpr double trial_seconds = 10;                 // a good driver takes .1
-constexpr const char* schema = "triad.drivers/1";
+constexpr const char* trial_schema = "triad.drivers/1";
 
 /// The child, with the loader's environment as it is to be tried.
 [[noreturn]] void be_the_trial(int argc, char** argv) {
@@ -129,8 +129,8 @@ std::optional<Problems> load_verdict(const fs::path& path) {
     std::ifstream file(path);
     if (path.empty() || !file) return {};
     const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (!json.is_object() || json.value("schema", nlohmann::json()) != schema || !json.contains("bad") ||
-        !json["bad"].is_array())
+    if (!json.is_object() || json.value("schema", nlohmann::json()) != trial_schema ||
+        !json.contains("bad") || !json["bad"].is_array())
         return {};
     Problems bad;
     for (const auto& each : json["bad"]) {
@@ -145,7 +145,7 @@ std::optional<Problems> load_verdict(const fs::path& path) {
 
 void keep_verdict(const fs::path& path, const Problems& bad) {
     if (path.empty()) return;
-    nlohmann::json json{{"schema", schema}, {"bad", nlohmann::json::array()}};
+    nlohmann::json json{{"schema", trial_schema}, {"bad", nlohmann::json::array()}};
     for (const auto& [icd, why] : bad) json["bad"].push_back({{"icd", icd}, {"why", why}});
     try {
         fs::create_directories(path.parent_path());

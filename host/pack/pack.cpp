@@ -9,10 +9,6 @@
 namespace triad {
 namespace {
 
-void copy(float out[3], const dvec3& v) {
-    for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
-}
-
 std::shared_ptr<const PackedSurfaces> pack_surfaces(const Scene& scene, const RenderSettings& settings) {
     auto surfaces = std::make_shared<PackedSurfaces>();
     pack_materials(scene, *surfaces);
@@ -70,10 +66,10 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     dev::Frame frame{};
     dev::Camera& c = frame.camera;
     const View& view = settings.view;
-    copy(c.origin, view.eye - packed.origin);
-    copy(c.right, view.right);
-    copy(c.up, view.up);
-    copy(c.forward, view.forward);
+    to_floats(c.origin, view.eye - packed.origin);
+    to_floats(c.right, view.right);
+    to_floats(c.up, view.up);
+    to_floats(c.forward, view.forward);
     c.lens_radius = static_cast<float>(view.lens_radius);
     c.focus_distance = static_cast<float>(view.focus_distance);
     c.projection = view.orthographic ? CAMERA_ORTHOGRAPHIC : CAMERA_PERSPECTIVE;

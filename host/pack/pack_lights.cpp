@@ -48,10 +48,6 @@ std::vector<bool> drawn(const PackedScene& packed) {
     return in_tree;
 }
 
-void copy(float out[3], const dvec3& v) {
-    for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(v[i]);
-}
-
 struct Picker {
     PackedScene& packed;
     std::vector<double> power;
@@ -88,11 +84,11 @@ void add_triangles(const Scene& scene, Picker& picker) {
             light.primitive = static_cast<std::uint32_t>(i);
             const double area = 0.5 * glm::length(glm::cross(e1, e2));
             light.area = static_cast<float>(area);
-            copy(light.position, corner(0));
-            copy(light.edge1, e1);
-            copy(light.edge2, e2);
-            copy(light.axis, area > 0 ? glm::normalize(glm::cross(e1, e2)) : dvec3(0, 1, 0));
-            copy(light.colour, dvec3(m.emission * colour.tint));
+            to_floats(light.position, corner(0));
+            to_floats(light.edge1, e1);
+            to_floats(light.edge2, e2);
+            to_floats(light.axis, area > 0 ? glm::normalize(glm::cross(e1, e2)) : dvec3(0, 1, 0));
+            to_floats(light.colour, dvec3(m.emission * colour.tint));
             light.flags = (m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u) | colour.index
                                                                               << LIGHT_SPECTRUM_SHIFT;
             picker.add(light, in_tree[i] ? pi * area * radiance * (m.double_sided ? 2.0 : 1.0) : 0.0);
@@ -104,10 +100,10 @@ void add_punctual(const Scene& scene, Picker& picker) {
     const double radius = std::max(picker.packed.bounds.radius(), 1e-30);
     for (const PunctualLight& l : scene.lights) {
         dev::Light light{};
-        copy(light.position, l.position - picker.packed.origin);
-        copy(light.axis, l.direction);
+        to_floats(light.position, l.position - picker.packed.origin);
+        to_floats(light.axis, l.direction);
         const LightColour colour = light_colour(*picker.packed.surfaces, l.spectrum);
-        copy(light.colour, dvec3(l.colour * colour.tint));
+        to_floats(light.colour, dvec3(l.colour * colour.tint));
         light.flags = colour.index << LIGHT_SPECTRUM_SHIFT;
         light.range = l.range;
         const double intensity = average(l.colour * colour.seen);

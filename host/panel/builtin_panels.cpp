@@ -8,7 +8,7 @@ namespace {
 /// sRGB's primaries (IEC 61966-2-1) and their shares of white, which is D65.
 constexpr dvec2 primaries[] = {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, {0.3127, 0.3290}};
 constexpr double luminances[] = {0.212639, 0.715169, 0.072192};
-const char* const names[] = {"R", "G", "B", "W"};
+const char* const colour_names[] = {"R", "G", "B", "W"};
 
 Aperture rectangle(double width, double height) {
     const double x = width / 2, y = height / 2;
@@ -20,7 +20,7 @@ Aperture diamond(double radius) { return {{{0, -radius}, {radius, 0}, {0, radius
 Emitter emitter(Feed feed, dvec2 centre, Aperture aperture, unsigned x = 0, unsigned y = 0,
                 double share = 1) {
     const unsigned c = unsigned(feed);
-    return {names[c], primaries[c], share * luminances[c], centre, std::move(aperture), x, y, feed};
+    return {colour_names[c], primaries[c], share * luminances[c], centre, std::move(aperture), x, y, feed};
 }
 
 Panel stripes(const char* name, const char* description, double width, double height) {
@@ -70,7 +70,7 @@ Panel woled() {
     const Feed order[] = {Feed::red, Feed::white, Feed::blue, Feed::green};
     for (unsigned i = 0; i < 4; ++i) {
         const unsigned c = unsigned(order[i]);
-        panel.emitters.push_back({names[c],
+        panel.emitters.push_back({colour_names[c],
                                   primaries[c],
                                   c == 3 ? 1.0 : luminances[c],
                                   {(2 * i + 1) / 8.0, 0.5},

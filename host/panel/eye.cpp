@@ -6,7 +6,7 @@
 namespace triad {
 namespace {
 
-constexpr std::array<const char*, 3> names = {"scielab", "sharp", "flip"};
+constexpr std::array<const char*, 3> eye_names = {"scielab", "sharp", "flip"};
 
 /// Rows as they are printed; GLM keeps columns.
 dmat3 rows(const dvec3& a, const dvec3& b, const dvec3& c) { return glm::transpose(dmat3(a, b, c)); }
@@ -36,12 +36,12 @@ double flip_blue(double f) {
 }  // namespace
 
 std::optional<Eye> eye_named(const std::string& name) {
-    for (unsigned i = 0; i < names.size(); ++i)
-        if (name == names[i]) return Eye(i);
+    for (unsigned i = 0; i < eye_names.size(); ++i)
+        if (name == eye_names[i]) return Eye(i);
     return {};
 }
 
-const char* eye_name(Eye eye) { return names[unsigned(eye)]; }
+const char* eye_name(Eye eye) { return eye_names[unsigned(eye)]; }
 
 dmat3 opponent_of_xyz(Eye eye, const dvec3& white) {
     switch (eye) {

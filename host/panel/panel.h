@@ -36,6 +36,9 @@ struct PanelAdvice {
     std::string why;  ///< a sentence
 };
 
+/// Pixels per degree where nobody says: 27 inches, 2560 x 1440 pixels, from .6 m.
+inline constexpr double usual_ppd = 45;
+
 /// The cell tiles the screen from its top left corner.
 struct Panel {
     std::string name;

@@ -13,7 +13,7 @@ using Matrix = std::vector<Complex>;  // Hermitian, row by row
 constexpr double penalty =
     0.01;  // rho, of the mean diagonal of A: what splits the eye's passband from the rest
 constexpr unsigned period = 32;  // px
-constexpr double reach = 6;      // cycles per pixel
+constexpr double eye_reach = 6;  // cycles per pixel
 constexpr int radius = 4;        // px
 
 /// A (A + rho I)^-1 = I - rho (A + rho I)^-1, by Gauss and Jordan; A + rho I has no small pivot.
@@ -78,7 +78,8 @@ RefineStencil design_refine(const Panel& panel, double ppd, const EyeShares& eye
     constexpr std::size_t side = 2 * radius + 1;
     stencil.weights.assign(std::size_t(panel.cell_x) * panel.cell_y * 3 * side * side * 3, 0);
     if (panel.advice.full_pixel) return stencil;
-    const ErrorForm form(panel, eye_responses(panel, ppd, eyes), ErrorForm::period_of(panel, period), reach);
+    const ErrorForm form(panel, eye_responses(panel, ppd, eyes), ErrorForm::period_of(panel, period),
+                         eye_reach);
     const Kernel kernel(form);
     const int cx = int(panel.cell_x), cy = int(panel.cell_y);
     for (std::size_t e = 0; e < form.count(); ++e)

@@ -16,13 +16,13 @@
 namespace triad {
 namespace {
 
-std::string tone_class(Verdict::Tone tone) {
-    return tone == Verdict::Tone::good  ? " class=\"v good\""
-           : tone == Verdict::Tone::bad ? " class=\"v bad\""
-                                        : " class=\"v\"";
+std::string tone_class(VerdictWords::Tone tone) {
+    return tone == VerdictWords::Tone::good  ? " class=\"v good\""
+           : tone == VerdictWords::Tone::bad ? " class=\"v bad\""
+                                             : " class=\"v\"";
 }
 
-std::string number(double value) { return html_escape(digits3(value)); }
+std::string digits_html(double value) { return html_escape(digits3(value)); }
 
 std::string count(double value) { return html_escape(count_words(value)); }
 
@@ -38,7 +38,7 @@ std::string cell(const char* label, const std::string& html, const std::string& 
            (below.empty() ? "" : "<small>" + below + "</small>") + "</td>";
 }
 
-std::string words_cell(const char* label, const Verdict& verdict) {
+std::string words_cell(const char* label, const VerdictWords& verdict) {
     return std::string("<td data-label=\"") + label + "\"><span" + tone_class(verdict.tone) + ">" +
            html_escape(verdict.words) + "</span></td>";
 }
@@ -65,7 +65,7 @@ std::string head_html(const ErrorBench& bench, const ErrorReportHead& head) {
         const std::string of = bench.settings.size() > 1 ? " of " + html_escape(score.setting) : "";
         html += "<p class=\"score\">Score" + of + ": ";
         if (score.score)
-            html += "<b>" + number(score.score->value) + "</b> <span class=\"soft\">(95 % interval " +
+            html += "<b>" + digits_html(score.score->value) + "</b> <span class=\"soft\">(95 % interval " +
                     html_escape(interval_words(*score.score)) +
                     "; 100 is the published baseline)</span></p>\n";
         else
@@ -102,9 +102,10 @@ std::string summary_html(const ErrorBench& bench) {
         html += "<tr><th data-label=\"Scene\">" + html_escape(curve.scene) +
                 "</th><td data-label=\"Setting\"><span class=\"v\">" + html_escape(curve.setting) +
                 "</span></td>" + cell("Samples per pixel", count(last.spp)) +
-                cell("Time (s)", number(last.seconds)) +
-                cell("relMSE", number(last.relmse.value), html_escape(interval_words(last.relmse))) +
-                cell("Trimmed relMSE", number(last.relmse_trimmed)) + cell("FLIP", number(last.flip)) +
+                cell("Time (s)", digits_html(last.seconds)) +
+                cell("relMSE", digits_html(last.relmse.value), html_escape(interval_words(last.relmse))) +
+                cell("Trimmed relMSE", digits_html(last.relmse_trimmed)) +
+                cell("FLIP", digits_html(last.flip)) +
                 cell("Fireflies", count(last.fireflies),
                      last.nan ? html_escape(std::to_string(last.nan) + " samples not finite") : "") +
                 (curve.slope ? cell("Slope", hundredths(curve.slope->value),
@@ -143,12 +144,12 @@ std::string changes_html(const ErrorBench& bench) {
         html += "<tr><th data-label=\"Scene\">" + html_escape(change.scene) +
                 "</th><td data-label=\"Setting\"><span class=\"v\">" + html_escape(change.setting) +
                 "</span></td>" +
-                cell("Time, new / old", number(change.time_ratio.value),
+                cell("Time, new / old", digits_html(change.time_ratio.value),
                      html_escape(interval_words(change.time_ratio))) +
-                (change.error_ratio ? cell("relMSE, new / old", number(change.error_ratio->value),
+                (change.error_ratio ? cell("relMSE, new / old", digits_html(change.error_ratio->value),
                                            html_escape(interval_words(*change.error_ratio)))
                                     : cell("relMSE, new / old", "-", "no samples in common")) +
-                cell("p", number(change.p)) + words_cell("Verdict", verdict_of(change)) + "</tr>\n";
+                cell("p", digits_html(change.p)) + words_cell("Verdict", verdict_of(change)) + "</tr>\n";
     return html + "</tbody></table>\n";
 }
 
@@ -168,8 +169,8 @@ std::string scene_html(const ErrorBench& bench, const ErrorScene& scene, const E
         (scene.options.empty() ? "The built-in scene" : "<code>" + html_escape(scene.options) + "</code>") +
         ", " + std::to_string(scene.reference.width) + " x " + std::to_string(scene.reference.height) +
         " pixels. The reference has " + count(scene.reference_spp) +
-        " samples per pixel; its own relMSE is " + number(scene.reference_relmse) + ", and it " +
-        (scene.reference_seconds > 0 ? "took " + number(scene.reference_seconds) + " s of this run."
+        " samples per pixel; its own relMSE is " + digits_html(scene.reference_relmse) + ", and it " +
+        (scene.reference_seconds > 0 ? "took " + digits_html(scene.reference_seconds) + " s of this run."
                                      : "was kept from before.") +
         "</p>\n";
     const std::string scene_plots = plot_html(plots, scene.name);
@@ -192,22 +193,22 @@ std::string scene_html(const ErrorBench& bench, const ErrorScene& scene, const E
         html += figure(data_uri("image/png", png_of(curve.display)),
                        "Picture of " + scene.name + " with " + curve.setting,
                        "<b>" + name + "</b>, " + count(last.spp) + " samples per pixel in " +
-                           number(last.seconds) + " s",
+                           digits_html(last.seconds) + " s",
                        "", first ? "" : " class=\"first\"");
         if (!curve.rel_error.empty()) {
             const ColourScale scale{-limit, limit, true};
-            html +=
-                figure(data_uri("image/png", false_colour_png(curve.rel_error, width, height, scale)),
-                       "Relative error of " + curve.setting + ", pixel by pixel",
-                       "<b>" + name + "</b>, relative error, pixel by pixel",
-                       legend(scale, "too dark, -" + number(limit), "+" + number(limit) + ", too bright"));
+            html += figure(
+                data_uri("image/png", false_colour_png(curve.rel_error, width, height, scale)),
+                "Relative error of " + curve.setting + ", pixel by pixel",
+                "<b>" + name + "</b>, relative error, pixel by pixel",
+                legend(scale, "too dark, -" + digits_html(limit), "+" + digits_html(limit) + ", too bright"));
         }
         if (!curve.flip_map.empty()) {
             const ColourScale scale{0, 1, false};
-            html +=
-                figure(data_uri("image/png", false_colour_png(curve.flip_map, width, height, scale)),
-                       "FLIP map of " + curve.setting, "<b>" + name + "</b>, FLIP, mean " + number(last.flip),
-                       legend(scale, "the same, 0", "1, quite different"));
+            html += figure(data_uri("image/png", false_colour_png(curve.flip_map, width, height, scale)),
+                           "FLIP map of " + curve.setting,
+                           "<b>" + name + "</b>, FLIP, mean " + digits_html(last.flip),
+                           legend(scale, "the same, 0", "1, quite different"));
         }
     }
     return html + "</div>\n";

@@ -30,8 +30,8 @@ std::string count_words(double value) {
 
 std::string interval_words(const Estimate& e) { return digits3(e.low) + " to " + digits3(e.high); }
 
-Verdict verdict_of(const ErrorCurve& curve, const ErrorCurve& first) {
-    using Tone = Verdict::Tone;
+VerdictWords verdict_of(const ErrorCurve& curve, const ErrorCurve& first) {
+    using Tone = VerdictWords::Tone;
     if (!curve.right) return {"Void: the picture is wrong. " + curve.verdict, Tone::bad};
     if (&curve == &first) return {"The picture is right.", Tone::plain};
     if (!curve.time_ratio)
@@ -51,12 +51,12 @@ Verdict verdict_of(const ErrorCurve& curve, const ErrorCurve& first) {
             Tone::plain};
 }
 
-Verdict verdict_of(const ErrorChange& change) {
+VerdictWords verdict_of(const ErrorChange& change) {
     const std::string words = ": takes " + digits3(change.time_ratio.value) +
                               " times as long to the same error (" + interval_words(change.time_ratio) + ")";
-    if (change.verdict == ErrorChange::Verdict::better) return {"Better" + words, Verdict::Tone::good};
-    if (change.verdict == ErrorChange::Verdict::worse) return {"Worse" + words, Verdict::Tone::bad};
-    return {"The same within noise" + words, Verdict::Tone::plain};
+    if (change.verdict == ErrorChange::Verdict::better) return {"Better" + words, VerdictWords::Tone::good};
+    if (change.verdict == ErrorChange::Verdict::worse) return {"Worse" + words, VerdictWords::Tone::bad};
+    return {"The same within noise" + words, VerdictWords::Tone::plain};
 }
 
 std::string score_words(const SettingScore& score) {

@@ -17,12 +17,12 @@ std::string count_words(double value);
 std::string interval_words(const Estimate& estimate);
 
 /// What the curve says about its setting in one sentence. `first`: the scene's first setting.
-struct Verdict {
+struct VerdictWords {
     std::string words;
     enum class Tone { plain, good, bad } tone = Tone::plain;
 };
-Verdict verdict_of(const ErrorCurve& curve, const ErrorCurve& first);
-Verdict verdict_of(const ErrorChange& change);
+VerdictWords verdict_of(const ErrorCurve& curve, const ErrorCurve& first);
+VerdictWords verdict_of(const ErrorChange& change);
 
 /// "104 (98.0 to 111)", or why there is none.
 std::string score_words(const SettingScore& score);

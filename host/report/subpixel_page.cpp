@@ -92,7 +92,7 @@ std::string verdict_table(const SubpixelReport& report) {
         "<h2>Verdict</h2>\n<table><thead><tr><th>display</th><th>comparisons at equal "
         "rays</th><th>significantly better than triad</th><th>significantly worse</th></tr></thead><tbody>\n";
     for (const PanelView& view : report.plan.displays) {
-        const Verdict v = verdict_of(rows_on(report, view));
+        const SubpixelVerdict v = verdict_of(rows_on(report, view));
         html += "<tr><th data-label=\"display\">" + html_escape(display_words(view)) +
                 format(
                     "</th><td class=\"n\" data-label=\"comparisons\">%zu</td><td class=\"n\" "
@@ -100,7 +100,7 @@ std::string verdict_table(const SubpixelReport& report) {
                     v.comparisons, v.better.size(), v.worse);
     }
     html += "</tbody></table>\n";
-    const Verdict all = verdict_of(report.rows);
+    const SubpixelVerdict all = verdict_of(report.rows);
     if (all.better.empty()) return html;
     html +=
         "<h3>Better than triad</h3>\n<table><thead><tr><th>display</th><th>scene</th><th>eye</"

@@ -59,8 +59,8 @@ std::string csv_of(const SubpixelReport& report) {
     return csv;
 }
 
-Verdict verdict_of(const std::vector<SubpixelRow>& rows) {
-    Verdict verdict;
+SubpixelVerdict verdict_of(const std::vector<SubpixelRow>& rows) {
+    SubpixelVerdict verdict;
     for (const SubpixelRow& row : rows) {
         if (!is_compared(row)) continue;
         ++verdict.comparisons;
@@ -87,7 +87,7 @@ std::string summary_of(const SubpixelReport& report) {
                     text += format(" %s %.3g", row->method.c_str(), row->error.value);
                 text += "\n";
             }
-    const Verdict verdict = verdict_of(report.rows);
+    const SubpixelVerdict verdict = verdict_of(report.rows);
     for (const SubpixelRow& row : verdict.better)
         text +=
             format("better than triad: %s, %g ppd, %s, %s, %s, %g rays: by %.3g (%.3g to %.3g)\n",

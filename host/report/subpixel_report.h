@@ -17,11 +17,11 @@ struct SubpixelReport {
 };
 
 /// Comparisons with triad at equal rays.
-struct Verdict {
+struct SubpixelVerdict {
     std::size_t comparisons = 0, worse = 0;  ///< significantly
     std::vector<SubpixelRow> better;         ///< significantly
 };
-Verdict verdict_of(const std::vector<SubpixelRow>& rows);
+SubpixelVerdict verdict_of(const std::vector<SubpixelRow>& rows);
 
 std::vector<std::string> scenes_of(const std::vector<SubpixelRow>& rows);
 bool is_of(const SubpixelRow& row, const PanelView& view);

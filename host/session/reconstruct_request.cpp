@@ -4,11 +4,7 @@
 #include "session/panel_file.h"
 
 namespace triad {
-namespace {
-
-constexpr double usual_ppd = 45;  ///< a 27 inch display of 2560 x 1440 pixels at 0.6 m
-
-}  // namespace
+namespace {}  // namespace
 
 Reconstruction ReconstructRequest::make(std::optional<uvec2> film_bins) const {
     ReconstructionChoice choice{method, filter, bins ? bins : film_bins, {}, refine_steps};

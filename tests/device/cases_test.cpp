@@ -1,5 +1,5 @@
 // The cases of triad check on single functions.
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 #include "check_cases.h"
 
 namespace triad {

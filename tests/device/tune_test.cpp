@@ -10,7 +10,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 #include "device_fixture.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
@@ -92,15 +92,15 @@ TEST_F(Tune, the_work_group_size_changes_no_bit) {
     World world;
     world.origin_reach = 2.0f;
     world.add(0, shapes::displaced_sphere(vec3(0.0f), 1.0f, 40, 30, 0.3f, 3.0f, 1));
-    const Tracer tracer(test_device(), world);
+    const RayCaster caster(test_device(), world);
     Random random(1);
     std::vector<dev::Ray> rays;
     for (int i = 0; i < 5000; ++i) rays.push_back(ray(random.in_cube(0.5), random.direction()));
     test_device().set_preferred_local(64);
-    const auto expected = tracer.closest(rays);
+    const auto expected = caster.closest(rays);
     for (const std::size_t local : {1u, 8u}) {
         test_device().set_preferred_local(local);
-        const auto hits = tracer.closest(rays);
+        const auto hits = caster.closest(rays);
         EXPECT_EQ(std::memcmp(hits.data(), expected.data(), hits.size() * sizeof(dev::Hit)), 0) << local;
     }
 }

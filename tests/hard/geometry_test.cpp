@@ -4,7 +4,7 @@
 #include <random>
 
 #include "bvh/bvh.h"
-#include "check/tracer.h"
+#include "check/ray_caster.h"
 #include "double_tracer.h"
 #include "hard_scene.h"
 #include "kernels/types.h"
@@ -220,7 +220,8 @@ TEST_F(Hard, a_hundred_million_triangles_are_hit_where_they_are) {
         rays.push_back(ray);
     }
     const std::vector<dev::Hit> hits =
-        traversal_case::Tracer(test_device(), packed.bvh, packed.instance_table, packed.roots).closest(rays);
+        traversal_case::RayCaster(test_device(), packed.bvh, packed.instance_table, packed.roots)
+            .closest(rays);
     std::size_t compared = 0, wrong = 0;
     double worst = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

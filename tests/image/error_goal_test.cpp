@@ -12,7 +12,7 @@
 namespace triad::analytic {
 namespace {
 
-constexpr unsigned size = 80;  // the scatter of an estimate falls with the number of pixels
+constexpr unsigned side = 80;  // the scatter of an estimate falls with the number of pixels
 
 struct Rendered {
     Film film;
@@ -23,7 +23,7 @@ Rendered render(const RenderGoal& goal, std::uint32_t seed) {
     Scene scene = lit_room(1, false);
     validate(scene);
     RenderSettings settings;
-    settings.width = settings.height = size;
+    settings.width = settings.height = side;
     settings.seed = seed;
     settings.view = room_view();
     Renderer renderer(test_device(), scene, settings);

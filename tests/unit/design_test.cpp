@@ -14,8 +14,6 @@ using namespace triad;
 
 namespace {
 
-Panel named(const std::string& name) { return builtin_panel(name).value(); }
-
 /// The published design with these changes.
 TapDesign published(TapDesign design = {}) {
     design.reach = published_design.reach, design.eyes = published_design.eyes;
@@ -50,8 +48,8 @@ double farthest(const std::vector<double>& a, const std::vector<double>& b) {
 // pixel).
 
 TEST(Design, agrees_with_published_taps_of_the_rgb_stripe) {
-    const TapTable t45 = design_taps(named("rgb"), 45, published()),
-                   t80 = design_taps(named("rgb"), 80, published());
+    const TapTable t45 = design_taps(builtin_panel("rgb").value(), 45, published()),
+                   t80 = design_taps(builtin_panel("rgb").value(), 80, published());
     EXPECT_EQ(t45.of(0, 0, 0).first_x, -4);
     EXPECT_EQ(t45.of(0, 0, 0).first_y, -3);
     EXPECT_EQ(t45.of(0, 0, 2).first_x, -2);
@@ -79,13 +77,15 @@ TEST(Design, agrees_with_published_taps_of_the_rgb_stripe) {
 }
 
 TEST(Design, agrees_with_published_taps_of_triangles_and_diamonds) {
-    const TapTable oled = design_taps(named("qd-oled"), 45, published({.bins_x = 4, .bins_y = 4}));
+    const TapTable oled =
+        design_taps(builtin_panel("qd-oled").value(), 45, published({.bins_x = 4, .bins_y = 4}));
     EXPECT_EQ(oled.of(0, 0, 0).first_x, -5);
     EXPECT_EQ(oled.of(0, 0, 1).first_y, -5);
     EXPECT_LT(farthest(marginal(oled.of(0, 0, 1), true), {-.0430, -.0234, .0150, .0699, .2182, .2593, .2611,
                                                           .2248, .0753, .0137, -.0265, -.0444}),
               .002);
-    const TapTable pentile = design_taps(named("pentile"), 45, published({.bins_x = 4, .bins_y = 4}));
+    const TapTable pentile =
+        design_taps(builtin_panel("pentile").value(), 45, published({.bins_x = 4, .bins_y = 4}));
     const Taps& green = pentile.of(0, 0, 1);
     EXPECT_EQ(green.first_x, -5);
     const auto row = green.weights.begin() + 4 * green.width;
@@ -99,7 +99,7 @@ TEST(Design, agrees_with_published_taps_of_triangles_and_diamonds) {
 
 TEST(Design, keeps_every_flat_colour) {
     for (const char* name : {"rgb", "rgb-black-matrix", "qd-oled", "pentile", "woled", "off"}) {
-        const Panel panel = named(name);
+        const Panel panel = builtin_panel(name).value();
         for (const TapDesign& design :
              {TapDesign{.cross_colour = panel.cell_x == 1}, TapDesign{.separable = true}, TapDesign{3, 1},
               TapDesign{1, 1}, TapDesign{.bins_x = 4, .bins_y = 2, .reach = 2}})
@@ -117,8 +117,9 @@ TEST(Design, keeps_every_flat_colour) {
 }
 
 TEST(Design, a_panel_turned_or_mirrored_turns_and_mirrors_its_taps) {
-    const TapTable rgb = design_taps(named("rgb"), 45), bgr = design_taps(named("bgr"), 45),
-                   vrgb = design_taps(named("vrgb"), 45);
+    const TapTable rgb = design_taps(builtin_panel("rgb").value(), 45),
+                   bgr = design_taps(builtin_panel("bgr").value(), 45),
+                   vrgb = design_taps(builtin_panel("vrgb").value(), 45);
     for (unsigned c = 0; c < 3; ++c)
         for (unsigned y = 0; y < 15; ++y)
             for (unsigned x = 0; x < 15; ++x) {
@@ -127,7 +128,8 @@ TEST(Design, a_panel_turned_or_mirrored_turns_and_mirrors_its_taps) {
                 EXPECT_NEAR(vrgb.of(0, 0, c).weights[x * 15 + y], w, 1e-6);
             }
     // Diamonds differ from pixel to pixel: turned, the pixels change places too.
-    const TapTable pentile = design_taps(named("pentile"), 45), half = design_taps(named("pentile@180"), 45);
+    const TapTable pentile = design_taps(builtin_panel("pentile").value(), 45),
+                   half = design_taps(builtin_panel("pentile@180").value(), 45);
     for (unsigned c = 0; c < 3; ++c)
         for (unsigned pixel = 0; pixel < 4; ++pixel) {
             const Taps &a = pentile.outputs[pixel * 3 + c], &b = half.outputs[(3 - pixel) * 3 + c];
@@ -143,7 +145,7 @@ TEST(Design, no_small_change_of_taps_lowers_the_cost) {
     for (const char* name : {"rgb", "qd-oled", "pentile"})
         for (const bool cross : {false, true}) {
             if (cross && std::string(name) == "pentile") continue;  // seconds
-            const Designer designer(named(name), 45, published({.cross_colour = cross}));
+            const Designer designer(builtin_panel(name).value(), 45, published({.cross_colour = cross}));
             const auto best = designer.solve();
             const double least = designer.cost(best);
             for (int trial = 0; trial < 10; ++trial) {
@@ -164,7 +166,7 @@ TEST(Design, no_small_change_of_taps_lowers_the_cost) {
 
 TEST(Design, nine_filters_gain_little_over_three_and_both_much_over_the_box) {
     // Costs above the one of unlimited filters, published: box 11093, three 505, nine 487.
-    const Panel panel = named("rgb");
+    const Panel panel = builtin_panel("rgb").value();
     const Designer three(panel, 45, published()), nine(panel, 45, published({.cross_colour = true}));
     const TapTable boxes = displaced_box_taps(panel);
     Designer::Values box(3 * 81);
@@ -178,27 +180,28 @@ TEST(Design, nine_filters_gain_little_over_three_and_both_much_over_the_box) {
 }
 
 TEST(Design, separable_taps_are_their_own_product) {
-    for (const Taps& taps : design_taps(named("rgb"), 45, {.separable = true}).outputs) {
+    for (const Taps& taps : design_taps(builtin_panel("rgb").value(), 45, {.separable = true}).outputs) {
         EXPECT_NEAR(total(taps.across), 1, 1e-6);
         EXPECT_NEAR(total(taps.down), 1, 1e-6);
         for (unsigned y = 0; y < taps.height; ++y)
             for (unsigned x = 0; x < taps.width; ++x)
                 EXPECT_NEAR(taps.weights[y * taps.width + x], taps.across[x] * taps.down[y], 1e-7);
     }
-    EXPECT_TRUE(design_taps(named("rgb"), 45).of(0, 0, 0).across.empty());
+    EXPECT_TRUE(design_taps(builtin_panel("rgb").value(), 45).of(0, 0, 0).across.empty());
 }
 
 TEST(Design, refuses_what_cannot_be_designed) {
-    EXPECT_THROW(design_taps(named("rgb"), 0), Error);
-    EXPECT_THROW(design_taps(named("rgb"), NAN), Error);
-    EXPECT_THROW(design_taps(named("rgb"), 45, {.bins_x = 0}), Error);
-    EXPECT_THROW(design_taps(named("rgb"), 45, {.bins_y = 17}), Error);
-    EXPECT_THROW(design_taps(named("rgb"), 45, {.reach = 9}), Error);
+    EXPECT_THROW(design_taps(builtin_panel("rgb").value(), 0), Error);
+    EXPECT_THROW(design_taps(builtin_panel("rgb").value(), NAN), Error);
+    EXPECT_THROW(design_taps(builtin_panel("rgb").value(), 45, {.bins_x = 0}), Error);
+    EXPECT_THROW(design_taps(builtin_panel("rgb").value(), 45, {.bins_y = 17}), Error);
+    EXPECT_THROW(design_taps(builtin_panel("rgb").value(), 45, {.reach = 9}), Error);
 }
 
 TEST(Design, a_whole_pixel_panel_gets_its_box) {
-    EXPECT_EQ(design_taps(named("off"), 45).of(3, 3, 1).weights, full_pixel_taps(3, 3).of(0, 0, 1).weights);
-    EXPECT_EQ(design_taps(named("woled"), 45).of(0, 0, 1).first_x, -1);
+    EXPECT_EQ(design_taps(builtin_panel("off").value(), 45).of(3, 3, 1).weights,
+              full_pixel_taps(3, 3).of(0, 0, 1).weights);
+    EXPECT_EQ(design_taps(builtin_panel("woled").value(), 45).of(0, 0, 1).first_x, -1);
 }
 
 // The steps of the refinement stay bounded where the low pass has eigenvalues from 0 to 1.
@@ -207,7 +210,7 @@ TEST(Refine, keeps_of_every_pattern_between_nothing_and_all) {
     std::normal_distribution<float> normal;
     for (const char* name : {"rgb", "vbgr", "qd-oled", "pentile"})
         for (const double ppd : {20.0, 45.0, 110.0}) {
-            const RefineStencil s = design_refine(named(name), ppd);
+            const RefineStencil s = design_refine(builtin_panel(name).value(), ppd);
             constexpr int n = 12;
             const int r = int(s.radius);
             const auto at = [](int x, int y) {
@@ -244,7 +247,7 @@ TEST(Refine, keeps_of_every_pattern_between_nothing_and_all) {
 TEST(Refine, keeps_what_eyes_see_and_leaves_out_what_they_do_not) {
     // Grey, and grey that alternates from pixel to pixel.
     for (const char* name : {"rgb", "qd-oled"}) {
-        const RefineStencil s = design_refine(named(name), 45);
+        const RefineStencil s = design_refine(builtin_panel(name).value(), 45);
         const int r = int(s.radius);
         for (unsigned c = 0; c < 3; ++c) {
             double flat = 0, fine = 0;
@@ -259,7 +262,7 @@ TEST(Refine, keeps_what_eyes_see_and_leaves_out_what_they_do_not) {
 }
 
 TEST(Platt, agrees_with_a_prototype_at_twenty_pixels_per_degree) {
-    const TapTable taps = platt_taps(named("rgb"), 20, true);
+    const TapTable taps = platt_taps(builtin_panel("rgb").value(), 20, true);
     EXPECT_EQ(taps.bins_x, 3u);
     EXPECT_EQ(taps.bins_y, 1u);
     const auto of = [&](unsigned c) {
@@ -281,12 +284,13 @@ TEST(Platt, agrees_with_a_prototype_at_twenty_pixels_per_degree) {
 TEST(Platt, keeps_flat_colours_turns_with_the_panel_and_refuses_triangles) {
     for (const double ppd : {20.0, 45.0, 80.0})
         for (const char* name : {"rgb", "bgr", "vrgb", "rgb-black-matrix"})
-            for (const Taps& taps : platt_taps(named(name), ppd, true).outputs) {
+            for (const Taps& taps : platt_taps(builtin_panel(name).value(), ppd, true).outputs) {
                 EXPECT_NEAR(total(taps.weights), 1, 1e-5) << name << ppd;
                 EXPECT_NEAR(total(taps.cross), 0, 1e-4) << name << ppd;
             }
-    const TapTable rgb = platt_taps(named("rgb"), 35, false), bgr = platt_taps(named("bgr"), 35, false),
-                   vrgb = platt_taps(named("vrgb"), 35, false);
+    const TapTable rgb = platt_taps(builtin_panel("rgb").value(), 35, false),
+                   bgr = platt_taps(builtin_panel("bgr").value(), 35, false),
+                   vrgb = platt_taps(builtin_panel("vrgb").value(), 35, false);
     EXPECT_TRUE(rgb.of(0, 0, 0).cross.empty());
     EXPECT_EQ(vrgb.bins_y, 3u);
     for (unsigned c = 0; c < 3; ++c)
@@ -296,5 +300,5 @@ TEST(Platt, keeps_flat_colours_turns_with_the_panel_and_refuses_triangles) {
         }
     EXPECT_EQ(vrgb.of(0, 0, 0).first_y, -7);
     for (const char* name : {"qd-oled", "pentile", "off", "woled"})
-        EXPECT_THROW(platt_taps(named(name), 45, true), Error);
+        EXPECT_THROW(platt_taps(builtin_panel(name).value(), 45, true), Error);
 }

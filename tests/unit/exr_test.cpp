@@ -12,6 +12,7 @@
 #include "base/files.h"
 #include "io/exr_header.h"
 #include "io/io.h"
+#include "sentence_of.h"
 #include "temporary_folder.h"
 
 using namespace triad;
@@ -35,18 +36,6 @@ EncodedPicture ramp(unsigned channels, unsigned bits) {
     picture.bytes.resize(16 * 8 * channels * bits / 8);
     for (std::size_t i = 0; i < picture.bytes.size(); ++i) picture.bytes[i] = std::uint8_t(i * 37 + i / 64);
     return picture;
-}
-
-template <class Action>
-std::string sentence_of(Exit exit, Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), exit) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
 }
 
 /// Type of an attribute in the file, by OpenEXR's layout: name, zero, type, zero.

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "io/io.h"
 #include "scene/film.h"
+#include "sentence_of.h"
 #include "temporary_folder.h"
 
 using namespace triad;
@@ -46,18 +47,6 @@ Film synthetic(SampleRange range, unsigned bins_x = 1, unsigned bins_y = 1) {
 std::vector<std::uint8_t> bytes_of(const Film& film, const TemporaryFolder& folder) {
     save_film(folder / "bytes.film", film);
     return read_file(folder / "bytes.film");
-}
-
-template <class Action>
-std::string sentence_of(Exit exit, Action action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), exit) << error.what();
-        return error.what();
-    }
-    ADD_FAILURE() << "no error";
-    return {};
 }
 
 void expect_contains(const std::string& text, const std::string& part) {

@@ -16,8 +16,6 @@ using namespace triad;
 
 namespace {
 
-Panel named(const std::string& name) { return builtin_panel(name).value(); }
-
 const Emitter& fed_by(const Panel& panel, Feed feed) {
     for (const Emitter& e : panel.emitters)
         if (e.feed == feed) return e;
@@ -44,40 +42,44 @@ TEST(Panel, every_built_in_is_sound_and_white_is_d65) {
 }
 
 TEST(Panel, a_display_upside_down_is_its_bgr_and_turned_back_is_itself) {
-    const Panel bgr = named("bgr"), turned_rgb = named("rgb@180"), same = named("rgb@90@270");
+    const Panel bgr = builtin_panel("bgr").value(), turned_rgb = builtin_panel("rgb@180").value(),
+                same = builtin_panel("rgb@90@270").value();
     for (unsigned c = 0; c < 3; ++c) {
         EXPECT_LT(glm::distance(fed_by(bgr, Feed(c)).centre, fed_by(turned_rgb, Feed(c)).centre), 1e-12);
-        EXPECT_LT(glm::distance(fed_by(named("rgb"), Feed(c)).centre, fed_by(same, Feed(c)).centre), 1e-12);
+        EXPECT_LT(
+            glm::distance(fed_by(builtin_panel("rgb").value(), Feed(c)).centre, fed_by(same, Feed(c)).centre),
+            1e-12);
     }
-    EXPECT_LT(fed_by(named("vrgb"), Feed::red).centre.y, 0.2);
-    EXPECT_GT(fed_by(named("vbgr"), Feed::red).centre.y, 0.8);
-    EXPECT_NEAR(fed_by(named("qd-oled@180"), Feed::green).centre.y, 0.75, 1e-12);
-    EXPECT_NEAR(named("woled@180").advice.shift.x, 0.125, 1e-12);
+    EXPECT_LT(fed_by(builtin_panel("vrgb").value(), Feed::red).centre.y, 0.2);
+    EXPECT_GT(fed_by(builtin_panel("vbgr").value(), Feed::red).centre.y, 0.8);
+    EXPECT_NEAR(fed_by(builtin_panel("qd-oled@180").value(), Feed::green).centre.y, 0.75, 1e-12);
+    EXPECT_NEAR(builtin_panel("woled@180").value().advice.shift.x, 0.125, 1e-12);
 }
 
 TEST(Panel, is_known_by_its_emitters_and_not_by_its_name) {
-    EXPECT_EQ(panel_id(named("bgr")), panel_id(named("rgb@180")));
-    EXPECT_EQ(panel_id(named("pentile")), panel_id(named("pentile@90@flip@flip@270")));
-    EXPECT_EQ(named("pentile@90").name, "pentile@90");
+    EXPECT_EQ(panel_id(builtin_panel("bgr").value()), panel_id(builtin_panel("rgb@180").value()));
+    EXPECT_EQ(panel_id(builtin_panel("pentile").value()),
+              panel_id(builtin_panel("pentile@90@flip@flip@270").value()));
+    EXPECT_EQ(builtin_panel("pentile@90").value().name, "pentile@90");
     std::set<std::string> ids;
     for (const Panel& panel : builtin_panels()) ids.insert(panel_id(panel));
     EXPECT_EQ(ids.size(), builtin_panels().size());
     for (const double shift : {1e-9, 0.01}) {
-        Panel moved = named("rgb");
+        Panel moved = builtin_panel("rgb").value();
         moved.emitters[1].centre.x += shift;
-        EXPECT_EQ(panel_id(moved) == panel_id(named("rgb")), shift < 1e-6) << shift;
+        EXPECT_EQ(panel_id(moved) == panel_id(builtin_panel("rgb").value()), shift < 1e-6) << shift;
     }
-    Panel other = named("rgb");
+    Panel other = builtin_panel("rgb").value();
     std::swap(other.emitters[0].feed, other.emitters[2].feed);
-    EXPECT_NE(panel_id(other), panel_id(named("rgb")));
+    EXPECT_NE(panel_id(other), panel_id(builtin_panel("rgb").value()));
 }
 
 TEST(Panel, turns_and_mirrors_are_recorded_as_mirror_then_turns) {
     // Whatever was done in whatever order: mirroring first and then turning as recorded gives the same.
     for (const char* changes : {"@90", "@flip", "@90@flip", "@flip@90", "@270@flip@180", "@flip@90@flip"}) {
         SCOPED_TRACE(changes);
-        const Panel panel = named(std::string("pentile") + changes);
-        Panel again = named("pentile");
+        const Panel panel = builtin_panel(std::string("pentile") + changes).value();
+        Panel again = builtin_panel("pentile").value();
         if (panel.flipped) again = mirrored(again);
         again = turned(again, panel.quarter_turns);
         for (std::size_t i = 0; i < panel.emitters.size(); ++i) {
@@ -89,11 +91,13 @@ TEST(Panel, turns_and_mirrors_are_recorded_as_mirror_then_turns) {
 }
 
 TEST(Panel, a_drive_lights_its_own_pixel_after_every_turn) {
-    for (const char* name : {"pentile", "pentile@90", "pentile@180@flip", "qd-oled@270"})
-        for (const Emitter& e : named(name).emitters) {
+    for (const char* name : {"pentile", "pentile@90", "pentile@180@flip", "qd-oled@270"}) {
+        const Panel panel = builtin_panel(name).value();
+        for (const Emitter& e : panel.emitters) {
             EXPECT_EQ(unsigned(e.centre.x), e.pixel_x) << name;
             EXPECT_EQ(unsigned(e.centre.y), e.pixel_y) << name;
         }
+    }
 }
 
 TEST(Panel, unknown_names_and_changes_are_none) {
@@ -103,7 +107,7 @@ TEST(Panel, unknown_names_and_changes_are_none) {
 
 TEST(Panel, no_panel_is_made_of_nonsense) {
     const auto refused = [](auto&& change) {
-        Panel panel = named("rgb");
+        Panel panel = builtin_panel("rgb").value();
         change(panel);
         EXPECT_THROW(check_panel(panel), Error);
     };
@@ -125,7 +129,7 @@ TEST(Panel, no_panel_is_made_of_nonsense) {
 }
 
 TEST(Panel, a_channel_without_emitter_in_its_pixel_is_an_output_without_one) {
-    const auto outputs = panel_outputs(named("pentile"));
+    const auto outputs = panel_outputs(builtin_panel("pentile").value());
     ASSERT_EQ(outputs.size(), 12u);
     unsigned empty = 0;
     for (const Output& o : outputs) {
@@ -174,7 +178,7 @@ TEST(Aperture, transforms_are_the_integrals_that_they_stand_for) {
 }
 
 TEST(Eye, sees_every_flat_colour_and_no_very_fine_pattern) {
-    const dvec3 white = panel_light(named("rgb")).white;
+    const dvec3 white = panel_light(builtin_panel("rgb").value()).white;
     for (const Eye eye : {Eye::scielab, Eye::sharp, Eye::flip}) {
         EXPECT_EQ(eye_named(eye_name(eye)), eye);
         const EyeResponse response(eye, white);
@@ -204,14 +208,14 @@ TEST(Eye, lab_agrees_with_linear_axes_around_mid_grey) {
 }
 
 TEST(BoxTaps, lie_around_the_light_and_sum_to_one) {
-    const TapTable rgb = displaced_box_taps(named("rgb"));
+    const TapTable rgb = displaced_box_taps(builtin_panel("rgb").value());
     EXPECT_EQ(rgb.of(5, 9, 0).first_x, -1);  // red: a third to the left
     EXPECT_EQ(rgb.of(5, 9, 1).first_x, 0);
     EXPECT_EQ(rgb.of(5, 9, 2).first_x, 1);
     EXPECT_EQ(rgb.of(5, 9, 0).width, 3u);
     for (const char* name : {"rgb", "qd-oled", "pentile", "woled", "off", "vrgb", "rgb@90@flip"})
         for (const unsigned bins : {1u, 2u, 3u, 4u, 5u}) {
-            const Panel panel = named(name);
+            const Panel panel = builtin_panel(name).value();
             const TapTable table = displaced_box_taps(panel, bins, bins);
             EXPECT_EQ(table.outputs.size(), 3 * table.cell_x * table.cell_y);
             for (const Taps& taps : table.outputs) {
@@ -222,13 +226,15 @@ TEST(BoxTaps, lie_around_the_light_and_sum_to_one) {
                 for (const float w : taps.weights) EXPECT_GE(w, 0);
             }
         }
-    EXPECT_EQ(displaced_box_taps(named("off")).of(0, 0, 2).across, std::vector<float>(3, 1.0f / 3));
+    EXPECT_EQ(displaced_box_taps(builtin_panel("off").value()).of(0, 0, 2).across,
+              std::vector<float>(3, 1.0f / 3));
 }
 
 TEST(BoxTaps, a_fraction_of_a_bin_counts_as_such) {
-    const TapTable woled = displaced_box_taps(named("woled"), 4, 4);  // an eighth to the left: half a bin
+    const TapTable woled =
+        displaced_box_taps(builtin_panel("woled").value(), 4, 4);  // an eighth to the left: half a bin
     EXPECT_EQ(woled.of(0, 0, 0).first_x, -1);
     EXPECT_EQ(woled.of(0, 0, 0).across, (std::vector<float>{0.125f, 0.25f, 0.25f, 0.25f, 0.125f}));
-    const TapTable coarse = displaced_box_taps(named("qd-oled"), 1, 1);
+    const TapTable coarse = displaced_box_taps(builtin_panel("qd-oled").value(), 1, 1);
     EXPECT_EQ(coarse.of(0, 0, 0).across, (std::vector<float>{0.25f, 0.75f}));
 }

@@ -17,8 +17,6 @@ using namespace triad;
 
 namespace {
 
-Panel named(const std::string& name) { return builtin_panel(name).value(); }
-
 RgbImage flat(unsigned width, unsigned height, const vec3& colour) {
     RgbImage image{width, height, {}};
     for (unsigned i = 0; i < width * height; ++i)
@@ -33,7 +31,7 @@ TEST(Simulate, mean_light_is_the_drive_on_every_panel) {
          {"rgb", "vbgr", "rgb-black-matrix", "qd-oled", "pentile", "woled", "off", "pentile@90"})
         for (const unsigned samples : {3u, 5u, 12u}) {
             const vec3 colour{0.25f, 0.5f, 1.0f};
-            const RgbImage light = simulate_panel(named(name), flat(6, 4, colour), samples);
+            const RgbImage light = simulate_panel(builtin_panel(name).value(), flat(6, 4, colour), samples);
             ASSERT_EQ(light.width, 6 * samples);
             dvec3 mean{0};
             for (std::size_t i = 0; i < light.rgb.size(); ++i)
@@ -45,7 +43,7 @@ TEST(Simulate, mean_light_is_the_drive_on_every_panel) {
 }
 
 TEST(Simulate, emitters_lie_where_the_panel_says) {
-    const RgbImage light = simulate_panel(named("rgb"), flat(1, 1, {1, 1, 1}), 3);
+    const RgbImage light = simulate_panel(builtin_panel("rgb").value(), flat(1, 1, {1, 1, 1}), 3);
     for (unsigned y = 0; y < 3; ++y)
         for (unsigned x = 0; x < 3; ++x)
             for (unsigned c = 0; c < 3; ++c)
@@ -53,7 +51,7 @@ TEST(Simulate, emitters_lie_where_the_panel_says) {
 }
 
 TEST(Simulate, drives_that_no_display_has_are_cut) {
-    const RgbImage light = simulate_panel(named("off"), flat(1, 1, {-1, 7, NAN}), 3);
+    const RgbImage light = simulate_panel(builtin_panel("off").value(), flat(1, 1, {-1, 7, NAN}), 3);
     EXPECT_NEAR(light.rgb[0], 0, 1e-6);
     EXPECT_NEAR(light.rgb[1], 1, 1e-6);
     EXPECT_NEAR(light.rgb[2], 0, 1e-6);
@@ -62,7 +60,8 @@ TEST(Simulate, drives_that_no_display_has_are_cut) {
 TEST(Perceived, equal_flat_pictures_have_no_error_but_the_stripes) {
     const vec3 colour{0.2f, 0.4f, 0.1f};
     const auto error = [&](const char* panel, Eye eye, double ppd) {
-        return PerceivedMetric(named(panel), flat(24 * 12, 24 * 12, colour), 12, {.ppd = ppd, .eye = eye})
+        return PerceivedMetric(builtin_panel(panel).value(), flat(24 * 12, 24 * 12, colour), 12,
+                               {.ppd = ppd, .eye = eye})
             .of(flat(24, 24, colour))
             .error;
     };
@@ -73,7 +72,7 @@ TEST(Perceived, equal_flat_pictures_have_no_error_but_the_stripes) {
 
 TEST(Perceived, a_change_of_lightness_is_its_size) {
     // Y up by .01: 1.16 units of lightness, none of colour.
-    const PerceivedMetric metric(named("off"), flat(12 * 3, 9 * 3, vec3(0.2f)), 3,
+    const PerceivedMetric metric(builtin_panel("off").value(), flat(12 * 3, 9 * 3, vec3(0.2f)), 3,
                                  {.border = 2, .repeats = true});
     const PerceivedError error = metric.of(flat(12, 9, vec3(0.21f)));
     EXPECT_NEAR(error.lightness, 1.16, 1e-4);
@@ -86,7 +85,7 @@ TEST(Perceived, a_change_of_lightness_is_its_size) {
 }
 
 TEST(Perceived, sizes_that_do_not_fit_are_refused) {
-    const Panel rgb = named("rgb");
+    const Panel rgb = builtin_panel("rgb").value();
     EXPECT_THROW(PerceivedMetric(rgb, flat(13, 12, vec3(0)), 4), Error);
     EXPECT_THROW(PerceivedMetric(rgb, flat(12, 12, vec3(0)), 2), Error);
     EXPECT_THROW(PerceivedMetric(rgb, {}, 3), Error);
@@ -99,7 +98,7 @@ TEST(Perceived, sizes_that_do_not_fit_are_refused) {
 }
 
 TEST(Perceived, too_small_a_picture_is_refused_with_the_size_that_is_needed) {
-    const Panel rgb = named("rgb");
+    const Panel rgb = builtin_panel("rgb").value();
     for (const auto& [ppd, least] : {std::pair(30.0, 22u), {45.0, 24u}, {90.0, 32u}, {110.0, 36u}}) {
         EXPECT_EQ(least_perceived_size(ppd), least);
         const auto of_size = [&, ppd = ppd](unsigned side) {
@@ -155,7 +154,7 @@ RgbImage on_film(const RgbImage& samples, const TapTable& table, Beyond beyond =
 }
 
 std::vector<Method> methods() {
-    const Panel rgb = named("rgb");
+    const Panel rgb = builtin_panel("rgb").value();
     const auto film = [](TapTable table) {
         return [table = std::move(table)](const RgbImage& s) { return on_film(s, table); };
     };
@@ -195,7 +194,7 @@ TEST(PublishedErrors, of_every_scene_and_method_are_found_again) {
     std::vector<double> squares(all.size());
     for (std::size_t i = 0; i < names.size(); ++i) {
         const RgbImage scene = load(names[i]);
-        const PerceivedMetric metric(named("rgb"), scene, 12, {.ppd = 45, .repeats = true});
+        const PerceivedMetric metric(builtin_panel("rgb").value(), scene, 12, {.ppd = 45, .repeats = true});
         for (std::size_t m = 0; m < all.size(); ++m) {
             const double error = metric.of(clamped(all[m].drives(scene))).error;
             const double near = 0.05 * all[m].published[i] + 0.005;
@@ -231,14 +230,16 @@ TEST(PublishedErrors, of_other_panels_eyes_and_distances_are_found_again) {
     const auto near = [](double value, double published) {
         EXPECT_NEAR(value, published, 0.05 * published + 0.005);
     };
-    const Panel rgb = named("rgb"), oled = named("qd-oled"), pentile = named("pentile"), bgr = named("bgr");
+    const Panel rgb = builtin_panel("rgb").value(), oled = builtin_panel("qd-oled").value(),
+                pentile = builtin_panel("pentile").value(), bgr = builtin_panel("bgr").value();
     const PerceivedChoice sharp{.ppd = 60, .eye = Eye::sharp}, flip{.ppd = 67, .eye = Eye::flip},
         near35{.ppd = 35};
     near(mean(rgb, design_taps(rgb, 45, published()), sharp), 4.12);
     near(mean(rgb, displaced_box_taps(rgb), flip), 1.01);
     near(mean(oled, design_taps(oled, 35, published()), near35), 1.05);
     near(mean(pentile, design_taps(pentile, 35, published()), near35), 1.40);
-    near(mean(named("woled"), displaced_box_taps(named("woled")), near35), 3.18);
+    near(mean(builtin_panel("woled").value(), displaced_box_taps(builtin_panel("woled").value()), near35),
+         3.18);
     near(mean(bgr, design_taps(rgb, 35, published()), near35),
          5.05);  // the wrong panel: worse than the full pixel's 3.03
 }
@@ -269,7 +270,7 @@ TEST(Borders, tell_nothing_of_what_lies_beyond) {
     double squares = 0, count = 0;
     for (const char* name : {"rgb", "qd-oled", "pentile"})
         for (const double ppd : {45.0, 90.0, 110.0}) {
-            const Panel panel = named(name);
+            const Panel panel = builtin_panel(name).value();
             const TapTable taps = design_taps(panel, ppd), boxes = displaced_box_taps(panel);
             const RefineStencil stencil = design_refine(panel, ppd);
             for (const char* scene : {"text", "voronoi"}) {

@@ -11,7 +11,9 @@ using namespace triad;
 
 namespace {
 
-double sum(const std::vector<float>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double sum_of_weights(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
 
 }  // namespace
 
@@ -22,9 +24,9 @@ TEST(PixelFilter, weights_sum_to_one_for_every_shape_width_and_resolution) {
                 const TapTable table = filter_taps(parse_filter(name + width), bins, bins);
                 ASSERT_EQ(table.outputs.size(), 3u);
                 const Taps& taps = table.outputs[1];
-                EXPECT_NEAR(sum(taps.weights), 1.0, 6e-8) << name << width << " " << bins;
-                EXPECT_NEAR(sum(taps.across), 1.0, 6e-8) << name << width << " " << bins;
-                EXPECT_NEAR(sum(taps.down), 1.0, 6e-8) << name << width << " " << bins;
+                EXPECT_NEAR(sum_of_weights(taps.weights), 1.0, 6e-8) << name << width << " " << bins;
+                EXPECT_NEAR(sum_of_weights(taps.across), 1.0, 6e-8) << name << width << " " << bins;
+                EXPECT_NEAR(sum_of_weights(taps.down), 1.0, 6e-8) << name << width << " " << bins;
                 for (unsigned v = 0; v < taps.height; ++v)
                     for (unsigned u = 0; u < taps.width; ++u)
                         EXPECT_NEAR(taps.weights[v * taps.width + u], taps.down[v] * taps.across[u], 1e-6);

@@ -168,7 +168,7 @@ TEST(ErrorWords, FasterSlowerSameVoid) {
     other.time_ratio = Estimate{1.1, 0.9, 1.3};
     EXPECT_NE(verdict_of(other, first).words.find("beyond noise"), std::string::npos);
     other.right = false;
-    EXPECT_EQ(verdict_of(other, first).tone, Verdict::Tone::bad);
+    EXPECT_EQ(verdict_of(other, first).tone, VerdictWords::Tone::bad);
     EXPECT_EQ(verdict_of(other, first).words.find("Void"), 0u);
 }
 

@@ -49,14 +49,14 @@ inline void set_rows(const dmat4& m, float rows[12]) {
 }
 
 /// Trees on the device.
-class Tracer {
+class RayCaster {
   public:
-    Tracer(Device& device, const BvhPool& pool, const std::vector<dev::Instance>& instances,
-           const BvhRoots& roots, const Options& options = {})
+    RayCaster(Device& device, const BvhPool& pool, const std::vector<dev::Instance>& instances,
+              const BvhRoots& roots, const Options& options = {})
         : device_(device) {
         upload(pool, instances, roots, options);
     }
-    Tracer(Device& device, const World& world, const Options& options = {}) : device_(device) {
+    RayCaster(Device& device, const World& world, const Options& options = {}) : device_(device) {
         BvhPool pool;
         pool.formats = {format_of(device)};
         std::vector<BvhRoots> roots(world.meshes.size());
