@@ -1,4 +1,4 @@
-// Every program compiles on this device with all options on, all off, and each one alone off.
+// Every program compiles on this device with all options on, and all off; on demand with each one alone off.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -35,7 +35,7 @@ TEST(Features, each_is_a_sentence_and_on_by_default) {
 class Programs : public testing::TestWithParam<std::string> {};
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Programs);
 
-TEST_P(Programs, builds_with_every_choice_of_options) {
+TEST_P(Programs, builds_with_all_options_and_with_none) {
     Device& device = test_device();
     EXPECT_NO_THROW(device.build(GetParam()));
     const std::string text = kernel_source::load(GetParam());
@@ -44,15 +44,20 @@ TEST_P(Programs, builds_with_every_choice_of_options) {
         all_off["TRIAD_BVH4"] = "1";
         EXPECT_NO_THROW(device.build(GetParam(), all_off)) << "nodes of four boxes";
     }
+    for (const std::string& name : feature_names()) all_off[name] = "0";
+    EXPECT_NO_THROW(device.build(GetParam(), all_off));
+}
+
+/// Minutes: kernel_syntax (label unit) asks clang the same in seconds. For a device's first check-up.
+TEST_P(Programs, DISABLED_builds_with_each_option_alone_off) {
+    const std::string text = kernel_source::load(GetParam());
     for (const std::string& name : feature_names()) {
-        all_off[name] = "0";
         // An option that no #if of this program asks for gives the program that was built already.
         const std::regex use("#\\s*(el)?if [^\n]*\\b" + name + "\\b");
         if (std::regex_search(text, use)) {
-            EXPECT_NO_THROW(device.build(GetParam(), {{name, "0"}})) << name;
+            EXPECT_NO_THROW(test_device().build(GetParam(), {{name, "0"}})) << name;
         }
     }
-    EXPECT_NO_THROW(device.build(GetParam(), all_off));
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, Programs, testing::ValuesIn(kernel_source::programs()),
