@@ -98,8 +98,8 @@ void declare_photons(CLI::App& command, RenderRequest& o) {
     command
         .add_option(
             "--photons", o.photons,
-            "Photons with every sample of the picture (default: one for each pixel); of photon-map: in "
-            "all (default: a million)")
+            "Photons with every sample of the picture (default: one for each pixel; auto: as few as a small "
+            "picture shows to be best); of photon-map: in all (default: a million)")
         ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
         ->type_name("N");
     command

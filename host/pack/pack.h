@@ -104,6 +104,10 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
 /// packed for where it is not that of the view. Films merge only where it is equal.
 std::string text_of(const RenderSettings& settings, const PackedScene& packed);
 
+/// Photons of a sample, where no number was asked for and none was chosen: one for each pixel, 16 million at
+/// most.
+std::uint64_t usual_photons(const RenderSettings& settings);
+
 /// Radius in which photons are gathered with a sample of the picture.
 double photon_radius(const PackedScene& packed, const RenderSettings& settings, const dev::Frame& frame,
                      std::uint64_t sample);

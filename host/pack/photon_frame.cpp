@@ -52,11 +52,14 @@ double photon_radius(const PackedScene& packed, const RenderSettings& settings, 
     return std::clamp(first * shrunk, least_radius * extent, extent);
 }
 
+std::uint64_t usual_photons(const RenderSettings& settings) {
+    return std::min(most_usual, std::uint64_t(settings.width) * settings.height);
+}
+
 dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings& settings,
                                  const dev::Frame& frame) {
     const bool map = packed.chosen == Integrator::photon_map;
-    const std::uint64_t usual =
-        map ? 1000000 : std::min(most_usual, std::uint64_t(settings.width) * settings.height);
+    const std::uint64_t usual = map ? 1000000 : usual_photons(settings);
     const std::uint64_t count = settings.photons ? settings.photons : usual;
     if (count > 0xffffffffull)
         throw Error(Exit::usage, "--photons " + std::to_string(count) +

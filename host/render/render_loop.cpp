@@ -163,7 +163,7 @@ class RenderLoop {
     bool pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut) {
         const std::size_t all = work.size();
         const std::uint32_t run = work.front().sample_count[0];
-        double share = 1;
+        double share = goal_.photon_share;
         if (may_be_cut) {
             std::uint64_t items = 0;
             for (const dev::TileWork& w : work) items += launcher_.samples_of(w);

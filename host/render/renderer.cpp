@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "base/error.h"
+#include "render/photon_count.h"
 #include "render/renderer_state.h"
 #include "trace/node_format.h"
 
@@ -50,14 +51,14 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     const auto start = RenderClock::now();
     const DeviceScenes scenes = scene_on(device, scene, settings);
     const double build_seconds = seconds_since(start);
-    state_ = std::make_unique<State>(scenes, settings, features);
+    state_ = std::make_unique<State>(scenes, with_photon_count(scenes, settings), features);
     state_->build_seconds = build_seconds;
 }
 
 Renderer::Renderer(const DeviceScenes& scenes, const RenderSettings& settings,
                    const std::optional<Features>& features) {
     check(settings);
-    state_ = std::make_unique<State>(scenes, settings, features);
+    state_ = std::make_unique<State>(scenes, with_photon_count(scenes, settings), features);
 }
 
 Renderer::~Renderer() = default;

@@ -20,6 +20,7 @@ struct RenderGoal {
     /// not known yet.
     std::function<std::optional<double>(const Film&)> perceived_noise;
     bool follow = true;  ///< estimate the error now and then for reports, also where nothing is decided by it
+    double photon_share = 1;  ///< of the photons of a sample: so many are traced, and stand for all
     /// What adaptive sampling lowers; empty: the relMSE. Shown the film with one sample in every bin, with
     /// two, and at the end of every round; each set holds so many.
     std::function<SetErrors(const Film&, const SetSamples&)> set_errors;
