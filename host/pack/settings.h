@@ -54,8 +54,8 @@ struct RenderSettings {
     bool independent = false;
     Spectral spectral = Spectral::automatic;
     Integrator integrator = Integrator::path;
-    /// With every sample of the picture (0: one for each pixel, or what render/photon_count.h finds best where
-    /// the integrator is automatic); of the classic map: all (0: a million).
+    /// With every sample of the picture (0: one for each pixel, or what render/photon_count.h finds best
+    /// where the integrator is automatic); of the classic map: all (0: a million).
     std::uint64_t photons = 0;
     bool aim_photons = true;   ///< at what mirrors and refracts; false: to compare
     double photon_radius = 0;  ///< scene units, of the first sample or of the classic map; 0: chosen

@@ -31,15 +31,15 @@ DeviceScenes scene_on(Device& device, const Scene& scene, const RenderSettings& 
 
 Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, const std::optional<Features>& f)
     : packed(scenes.front()->shared()),
-      settings(s),
-      features(f ? *f : features_of(*packed, s)),
-      store(*packed, s) {
+      settings(with_photon_count(scenes, s)),
+      features(f ? *f : features_of(*packed, settings)),
+      store(*packed, settings) {
     assert(holds_for(*packed, s));
     const auto start = RenderClock::now();
     for (const auto& scene : scenes) {
         assert(scene->shared() == packed);
         if (!tracers.empty() && photons() > 0) break;
-        tracers.push_back(std::make_unique<Tracer>(scene, s, features, store.film()));
+        tracers.push_back(std::make_unique<Tracer>(scene, settings, features, store.film()));
         store.add_device(scene->device().info());
     }
     compile_seconds = seconds_since(start);
@@ -51,14 +51,14 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
     const auto start = RenderClock::now();
     const DeviceScenes scenes = scene_on(device, scene, settings);
     const double build_seconds = seconds_since(start);
-    state_ = std::make_unique<State>(scenes, with_photon_count(scenes, settings), features);
+    state_ = std::make_unique<State>(scenes, settings, features);
     state_->build_seconds = build_seconds;
 }
 
 Renderer::Renderer(const DeviceScenes& scenes, const RenderSettings& settings,
                    const std::optional<Features>& features) {
     check(settings);
-    state_ = std::make_unique<State>(scenes, with_photon_count(scenes, settings), features);
+    state_ = std::make_unique<State>(scenes, settings, features);
 }
 
 Renderer::~Renderer() = default;
