@@ -106,4 +106,5 @@ def main():
     table.luxcore_row()
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -11,11 +11,12 @@ colour at 10 %: red where Triad is brighter). docs/hard.md has the table and say
 import argparse
 import json
 import os
-import struct
 import subprocess
 import sys
 
 import numpy as np
+
+from glb_reader import Glb
 
 TILE = 8
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -47,33 +48,6 @@ PARTS = {
 }
 
 
-class Glb:
-    """A .glb as written by scenes/glb.py, nothing more."""
-
-    def __init__(self, path):
-        with open(path, "rb") as file:
-            data = file.read()
-        size = struct.unpack_from("<I", data, 12)[0]
-        self.json = json.loads(data[20 : 20 + size])
-        self.data = data[28 + size :]
-
-    def array(self, index):
-        a = self.json["accessors"][index]
-        view = self.json["bufferViews"][a["bufferView"]]
-        kind = {5126: np.float32, 5125: np.uint32, 5123: np.uint16}[a["componentType"]]
-        columns = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
-        return np.frombuffer(self.data, kind, a["count"] * columns, view["byteOffset"]).reshape(-1, columns)
-
-    def nodes(self):
-        for node in self.json["nodes"]:
-            matrix = np.eye(4)
-            if "matrix" in node:
-                matrix = np.array(node["matrix"]).reshape(4, 4).T
-            if "translation" in node:
-                matrix[:3, 3] = node["translation"]
-            yield node, matrix
-
-
 def material(mi, glb, index, around):
     """(bsdf, emitter or None)"""
     m = glb.json["materials"][index]
@@ -85,12 +59,12 @@ def material(mi, glb, index, around):
         emitter = {"type": "area", "radiance": {"type": "rgb", "value": [strength * c for c in m["emissiveFactor"]]}}
     if "KHR_materials_transmission" in extensions:
         kind = "dielectric" if "KHR_materials_volume" in extensions else "thindielectric"
-        bsdf = {"type": kind, "int_ior": extensions["KHR_materials_ior"]["ior"], "ext_ior": around}
+        bsdf = {"type": kind, "int_ior": extensions.get("KHR_materials_ior", {"ior": 1.5})["ior"], "ext_ior": around}
         return (bsdf if bsdf["int_ior"] != around else {"type": "null"}), emitter
     if pbr.get("metallicFactor", 1.0) == 1.0:
         alpha = pbr["roughnessFactor"] ** 2
         return {"type": "twosided", "bsdf": {"type": "roughconductor", "material": "none", "distribution": "ggx",
-                                             "alpha": alpha}}, emitter
+                                             "alpha": alpha, "specular_reflectance": colour}}, emitter
     return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": colour}}, emitter
 
 
@@ -119,8 +93,12 @@ def shape(mi, glb, primitive, matrix, name, around):
     return mesh
 
 
-def scene(mi, name, path, view):
-    glb = Glb(path + ".glb")
+def sky(mi, path, strength=1.0):
+    return {"type": "envmap", "filename": str(path), "scale": strength, "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90)}
+
+
+def description(mi, glb, view, name=""):
+    """What mi.load_dict takes, without a sky."""
     camera, width, height, spp, depth = view
     transform = mi.ScalarTransform4f
     out = {"type": "scene", "integrator": {"type": "path", "max_depth": depth or -1}}
@@ -169,8 +147,13 @@ def scene(mi, name, path, view):
             else:
                 out[f"shape{count}"] = shape(mi, glb, primitive, matrix, f"mesh{count}", around)
             count += 1
+    return out
+
+
+def scene(mi, name, path, view):
+    out = description(mi, Glb(path + ".glb"), view, name)
     if os.path.exists(path + ".hdr"):
-        out["sky"] = {"type": "envmap", "filename": path + ".hdr", "to_world": transform().rotate([0, 1, 0], 90)}
+        out["sky"] = sky(mi, path + ".hdr")
     return mi.load_dict(out)
 
 
