@@ -22,7 +22,6 @@ constexpr FeatureOption table[] = {
     {"TRIANGLE_LIGHTS", &Features::triangle_lights},
     {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
     {"ENVIRONMENT_MAP", &Features::environment_map},
-    {"LIGHT_TREE", &Features::light_tree},
     {"LENS", &Features::lens},
     {"INDEPENDENT_SAMPLES", &Features::independent_samples},
     {"RAY_STARTS", &Features::ray_starts},
@@ -82,13 +81,11 @@ Features features_of(const PackedScene& packed, const RenderSettings& settings) 
     f.dispersion =
         settings.spectral == Spectral::classic || (settings.spectral != Spectral::off && f.dispersion);
     f.light_spectra = packed.spectrum.size() > 1;
-    f.light_tree = !packed.light_tree.nodes.empty();
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;
     f.ray_starts = settings.ray_start != RayStart::jitter;
-    const Integrator integrator = integrator_of(packed, settings);
-    f.photons = integrator != Integrator::path;
-    f.gather = integrator == Integrator::photons || integrator == Integrator::photon_map;
+    f.photons = packed.chosen != Integrator::path;
+    f.gather = packed.chosen == Integrator::photons || packed.chosen == Integrator::photon_map;
     f.bins = settings.bins_x * settings.bins_y > 1;
     return f;
 }

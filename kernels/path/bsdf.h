@@ -3,7 +3,6 @@
 #define TRIAD_PATH_BSDF_H
 
 #include "path/surface.h"
-#include "shading/light.h"
 
 /* After path_fork(). */
 TRIAD_FUNCTION VertexBsdf path_bsdf(const Scene* scene, PathState* path, Vertex* vertex) {
@@ -19,15 +18,6 @@ TRIAD_FUNCTION VertexBsdf path_bsdf(const Scene* scene, PathState* path, Vertex*
     }
 #endif
     return v;
-}
-
-/* Light from behind is lost on what transmits nothing. */
-TRIAD_FUNCTION Receiver path_receiver(Vec3 position, const VertexBsdf* v) {
-    Receiver receiver = {position, v->frame.z};
-#if BSDF_TRANSMISSION
-    if (v->bsdf.transmits) receiver.normal = vec3_splat(0.0f);
-#endif
-    return receiver;
 }
 
 #if PATH_EACH

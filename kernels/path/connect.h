@@ -20,9 +20,6 @@ typedef struct PendingLight {
     Vec2 uv;
     uint flags; /* of its Light */
 #endif
-#if TRIAD_RECORD
-    uint light; /* which Light it is */
-#endif
 } PendingLight;
 
 /* Before the ray of the edge is traced: what will be read to choose a direction in a map is asked for. */
@@ -68,7 +65,7 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
     const Surface* s = &vertex->surface;
     LightSample light;
     if (scene->frame->light_count == 0u || path_ends_in_map(scene, path) || !bsdf_has_smooth(&v->bsdf) ||
-        !light_sample(scene, path_receiver(s->position, v), u->set[2].x, u->set[3], &light))
+        !light_sample(scene, s->position, u->set[2].x, u->set[3], &light))
         return 0;
     const float side = vec3_dot(light.direction, vertex->ng);
     const Vec3 wi = frame_to_local(&v->frame, light.direction);
@@ -101,9 +98,6 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
         pending->flags = light.flags;
     }
 #endif
-#if TRIAD_RECORD
-    pending->light = light.light;
-#endif
     return 1;
 }
 
@@ -126,7 +120,7 @@ TRIAD_FUNCTION void path_arrive(const Scene* scene, PathState* path, const Pendi
     (void)scene;
 #endif
     path->radiance = colour_add(path->radiance, direct);
-    record_direct(tally, pending->light, path, direct);
+    record_direct(tally, scene, path, direct);
 }
 
 #endif

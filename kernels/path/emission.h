@@ -55,13 +55,12 @@ TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Ver
     if (path_is_back(path) || geometry->first_light == TRIAD_NONE ||
         (vertex->back && !(material->flags & MATERIAL_DOUBLE_SIDED)))
         return;
-    const uint index = geometry->first_light + vertex->hit.primitive - geometry->first_triangle;
-    global const Light* found = scene->lights + index;
+    global const Light* found =
+        scene->lights + geometry->first_light + vertex->hit.primitive - geometry->first_triangle;
     float weight = 1.0f;
     if ((found->flags & LIGHT_PHOTONS) && path_leaves_to_photons(scene, path)) weight = 0.0f;
     if (path->pdf > 0.0f) {
-        const Receiver from = {vec3_add_scaled(s->position, vertex->wo, vertex->hit.t), path_normal(path)};
-        const Light light = light_found(scene, index, from);
+        const Light light = *found;
         weight = power_heuristic(
             1.0f / (path->pdf * light_triangle_inverse_pdf(&light, 1.0f / (vertex->hit.t * vertex->hit.t),
                                                            vec3_dot(vertex->ng, vertex->wo))));

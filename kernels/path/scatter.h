@@ -72,9 +72,6 @@ TRIAD_FUNCTION int path_scatter(const Scene* scene, PathState* path, const Verte
 #endif
     scatter_bodies(path, vertex, event);
     path->pdf = (event & BSDF_DELTA) ? 0.0f : density;
-#if TRIAD_LIGHT_TREE
-    path->normal = path_receiver(vertex->surface.position, v).normal;
-#endif
     path->traits = scatter_traits(path->traits, path->edge, event);
     return 1;
 }

@@ -38,9 +38,6 @@ typedef struct PathState {
     uint edge;       /* its number: the camera's ray is edge 1 */
     uint traits;     /* PATH_STRAIGHT, PATH_SPECULAR, PATH_CAUSTIC */
     float pdf; /* solid-angle density of the direction; 0: delta or camera, found by no other sampling */
-#if TRIAD_LIGHT_TREE
-    Vec3 normal; /* of the Receiver where the edge starts */
-#endif
     Colour throughput;
 #if TRIAD_TRANSMISSION
     float body_scale; /* factor of throughput that leaving the bodies around will undo: no reason to die */
@@ -63,9 +60,6 @@ TRIAD_FUNCTION PathState path_state(const Sampler* sampler, Ray ray, PathColour 
     p.edge = 1u;
     p.traits = PATH_STRAIGHT | PATH_SPECULAR;
     p.pdf = 0.0f;
-#if TRIAD_LIGHT_TREE
-    p.normal = vec3_splat(0.0f);
-#endif
     p.throughput = colour_splat(1.0f);
 #if TRIAD_TRANSMISSION
     p.body_scale = 1.0f;
@@ -82,16 +76,6 @@ TRIAD_FUNCTION PathState path_state(const Sampler* sampler, Ray ray, PathColour 
 }
 
 TRIAD_FUNCTION Vec3 path_direction(const PathState* path) { return VEC3_OF(path->ray.direction); }
-
-/* Receiver.normal of where the edge starts. */
-TRIAD_FUNCTION Vec3 path_normal(const PathState* path) {
-#if TRIAD_LIGHT_TREE
-    return path->normal;
-#else
-    (void)path;
-    return vec3_splat(0.0f);
-#endif
-}
 
 TRIAD_FUNCTION float path_body_scale(const PathState* path) {
 #if TRIAD_TRANSMISSION

@@ -128,9 +128,6 @@ TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
     planes_uint(p, &path->edge);
     planes_uint(p, &path->traits);
     planes_float(p, &path->pdf);
-#if TRIAD_LIGHT_TREE
-    planes_vec3(p, &path->normal);
-#endif
 #if TRIAD_TRANSMISSION
     planes_float(p, &path->body_scale);
 #endif

@@ -1,12 +1,10 @@
-/* Light sampling: one light by its share of the power, or of what it may send here, then a point or direction
- * on it. */
+/* Light sampling: one light by its share of the power, then a point or direction on it. */
 #ifndef TRIAD_SHADING_LIGHT_H
 #define TRIAD_SHADING_LIGHT_H
 
 #include "common/random.h"
 #include "common/sampling.h"
 #include "shading/environment.h"
-#include "shading/light_tree.h"
 #include "shading/surface.h"
 
 typedef struct LightSample {
@@ -16,7 +14,6 @@ typedef struct LightSample {
     float inverse_pdf; /* of the solid angle, the pick included; 0: a delta light, which no other sampling
                           finds */
     int distant;
-    uint light; /* its Light */
     uint flags; /* of the Light: its weight is of this spectrum */
     Vec2 uv;    /* of a map: weight and inverse_pdf are still to be looked up, by light_complete() */
 } LightSample;
@@ -108,51 +105,12 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, Vec3 p, LightSample
 }
 #endif
 
-/* A light as it is picked for a receiver with this probability. */
-TRIAD_FUNCTION Light light_picked(const Scene* scene, uint index, float probability) {
-    Light light = scene->lights[index];
-    light.pick = probability;
-    light.area_per_pick = probability > 0.0f ? light.area / probability : 3e38f;
-    return light;
-}
-
-/* The light that the hit triangle is, as light sampling picks it for a receiver. */
-TRIAD_FUNCTION Light light_found(const Scene* scene, uint index, Receiver receiver) {
-#if TRIAD_LIGHT_TREE
-    if (scene->frame->light_range != 0u)
-        return light_picked(scene, index, light_tree_probability(scene, &receiver, index));
-#else
-    (void)receiver;
-#endif
-    return scene->lights[index];
-}
-
-/* The light that the uniform 32-bit integer `pick` picks for a receiver. 0: none is seen from there. */
-TRIAD_FUNCTION int light_pick(const Scene* scene, Receiver receiver, uint pick, LightSample* s,
-                              Light* light) {
+/* Draws a light and a direction to it from p: `pick` and `u` are uniform 32-bit integers. 0 when nothing
+ * arrives. */
+TRIAD_FUNCTION int light_sample(const Scene* scene, Vec3 p, uint pick, UVec2 u, LightSample* s) {
     float unused;
-#if TRIAD_LIGHT_TREE
-    const uint rest = (pick >> 1) - scene->frame->light_first;
-    if (rest < scene->frame->light_range) {
-        float probability;
-        s->light = light_tree_pick(scene, &receiver, rest, &probability);
-        if (s->light == TRIAD_NONE) return 0;
-        *light = light_picked(scene, s->light, probability);
-        return 1;
-    }
-#else
-    (void)receiver;
-#endif
-    s->light = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
-    *light = scene->lights[s->light];
-    return 1;
-}
-
-/* Draws a light and a direction to it: `pick` and `u` are uniform 32-bit integers. 0 when nothing arrives. */
-TRIAD_FUNCTION int light_sample(const Scene* scene, Receiver receiver, uint pick, UVec2 u, LightSample* s) {
-    const Vec3 p = receiver.position;
-    Light light;
-    if (!light_pick(scene, receiver, pick, s, &light)) return 0;
+    const uint index = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
+    const Light light = scene->lights[index];
     s->flags = light.flags;
 #if TRIAD_TRIANGLE_LIGHTS
     if (light.type == LIGHT_TRIANGLE) return light_sample_triangle(scene, &light, p, random_point(u), s);
