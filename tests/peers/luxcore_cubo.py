@@ -4,7 +4,6 @@ SECONDS of two cores: half of the processor time. Needs pyluxcore, numpy.
 
 Its glass takes Cauchy's two terms: index and dispersion (n_F - n_C) of "cubo" at the d line. Paths from the camera and from the
 lights ("hybridbackforward"), one wavelength per path after dispersion, as it comes."""
-import json
 import math
 import os
 import pathlib
@@ -21,33 +20,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "scenes"))
 
 from glb import png  # noqa: E402
-
-
-def read_glb(path):
-    """(document, accessor reader)."""
-    data = path.read_bytes()
-    length = struct.unpack_from("<I", data, 12)[0]
-    document, binary = json.loads(data[20:20 + length]), data[28 + length:]
-
-    def accessor(index):
-        a = document["accessors"][index]
-        view = document["bufferViews"][a["bufferView"]]
-        kind = {5126: "<f4", 5125: "<u4", 5123: "<u2"}[a["componentType"]]
-        columns = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
-        return numpy.frombuffer(binary, kind, a["count"] * columns, view["byteOffset"]).reshape(a["count"], columns)
-    return document, accessor
-
-
-def matrix_of(node):
-    if "matrix" in node:
-        return numpy.array(node["matrix"]).reshape(4, 4).T
-    x, y, z, w = node.get("rotation", (0, 0, 0, 1))
-    m = numpy.eye(4)
-    m[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                 [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                 [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]]
-    m[:3, 3] = node.get("translation", (0, 0, 0))
-    return m
+from glb_reader import Glb  # noqa: E402
 
 
 def write_ply(path, points, triangles):
@@ -60,7 +33,7 @@ def write_ply(path, points, triangles):
 
 
 def build(folder, aspect):
-    document, accessor = read_glb(ROOT / "scenes/spectral/cubo.glb")
+    glb = Glb(ROOT / "scenes/spectral/cubo.glb")
     scene, properties = pyluxcore.Scene(), pyluxcore.Properties()
 
     def put(name, value):
@@ -68,22 +41,21 @@ def build(folder, aspect):
 
     n_d = 1.4 + 50 / (587.5618 - 230)
     spread = 50 / (486.1327 - 230) - 50 / (656.2725 - 230)
-    for i, node in enumerate(document["nodes"]):
-        m = matrix_of(node)
+    for i, (node, m) in enumerate(glb.nodes()):
         if "camera" in node:
             eye = m[:3, 3]
             put("scene.camera.lookat.orig", eye.tolist())
             put("scene.camera.lookat.target", (eye - m[:3, 2]).tolist())
             put("scene.camera.up", m[:3, 1].tolist())
-            put("scene.camera.fieldofview", math.degrees(document["cameras"][node["camera"]]["perspective"]["yfov"]))
+            put("scene.camera.fieldofview", math.degrees(glb.json["cameras"][node["camera"]]["perspective"]["yfov"]))
             put("scene.camera.screenwindow", [-aspect, aspect, -1., 1.])
             put("scene.camera.autovolume.enable", False)
         if "mesh" not in node:
             continue
-        for primitive in document["meshes"][node["mesh"]]["primitives"]:
-            points = accessor(primitive["attributes"]["POSITION"]) @ m[:3, :3].T + m[:3, 3]
-            material = document["materials"][primitive["material"]]
-            write_ply(folder / f"{i}.ply", points, accessor(primitive["indices"]).reshape(-1, 3))
+        for primitive in glb.json["meshes"][node["mesh"]]["primitives"]:
+            points = glb.array(primitive["attributes"]["POSITION"]) @ m[:3, :3].T + m[:3, 3]
+            material = glb.json["materials"][primitive["material"]]
+            write_ply(folder / f"{i}.ply", points, glb.array(primitive["indices"]).reshape(-1, 3))
             key = f"scene.materials.m{i}"
             if "KHR_materials_transmission" in material.get("extensions", {}):
                 put(key + ".type", "glass")
