@@ -383,9 +383,10 @@ typedef struct Frame {
     uint wavelength_from_camera; /* 1: every path has a wavelength from its start on */
     uint ray_start;              /* RAY_START_* */
     RayFilterShape ray_filter;
+    uint photons;    /* 1: light of LIGHT_PHOTONS is left to photons where they bring it */
     uint photon_map; /* PHOTON_MAP_*, or 0: paths gather no photons */
 } Frame;
-TRIAD_SIZE(Frame, 340);
+TRIAD_SIZE(Frame, 344);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling

@@ -51,7 +51,7 @@ void describe(RenderSession& session) {
                   session.load_seconds(), renderer.build_seconds(), renderer.compile_seconds(),
                   bytes_text(renderer.device_bytes()).c_str()));
     const bool told = session.request().integrator == Integrator::automatic && renderer.photons() > 0;
-    (told ? inform : detail)("Integrator: " + renderer.packed().integrator);
+    (told ? inform : detail)("Integrator: " + renderer.integrator());
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 }
 

@@ -18,8 +18,11 @@ constexpr double longest_kept_edge = 2 * longest_edge_per_distance;
 /// edges are, since the render origin lies at that eye, and once more.
 constexpr double most_coordinate = 2 * (longest_edge_per_distance + 1);
 
+/// Whether what was packed with settings `a` holds for `b`: paths leave what is packed for photons alone.
 bool packs_alike(const RenderSettings& a, const RenderSettings& b) {
-    return a.spectral == b.spectral && a.integrator == b.integrator && a.aim_photons == b.aim_photons &&
+    return a.spectral == b.spectral &&
+           (b.integrator == Integrator::path ||
+            (a.integrator == b.integrator && a.aim_photons == b.aim_photons)) &&
            (a.ray_start == RayStart::filter) == (b.ray_start == RayStart::filter) &&
            a.environment_rotation == b.environment_rotation &&
            a.environment_strength == b.environment_strength && a.flatten_below == b.flatten_below;

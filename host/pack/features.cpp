@@ -84,8 +84,9 @@ Features features_of(const PackedScene& packed, const RenderSettings& settings) 
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;
     f.ray_starts = settings.ray_start != RayStart::jitter;
-    f.photons = packed.chosen != Integrator::path;
-    f.gather = packed.chosen == Integrator::photons || packed.chosen == Integrator::photon_map;
+    const Integrator integrator = integrator_of(packed, settings);
+    f.photons = integrator != Integrator::path;
+    f.gather = integrator == Integrator::photons || integrator == Integrator::photon_map;
     f.bins = settings.bins_x * settings.bins_y > 1;
     return f;
 }

@@ -96,8 +96,10 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.ray_start = settings.ray_start == RayStart::centre   ? RAY_START_CENTRE
                       : settings.ray_start == RayStart::filter ? RAY_START_FILTER
                                                                : RAY_START_JITTER;
-    if (packed.chosen == Integrator::photons) frame.photon_map = PHOTON_MAP_PROGRESSIVE;
-    if (packed.chosen == Integrator::photon_map)
+    const Integrator integrator = integrator_of(packed, settings);
+    frame.photons = integrator != Integrator::path;
+    if (integrator == Integrator::photons) frame.photon_map = PHOTON_MAP_PROGRESSIVE;
+    if (integrator == Integrator::photon_map)
         frame.photon_map = settings.final_gather ? PHOTON_MAP_FINAL_GATHER : PHOTON_MAP_VISUALISED;
     if (settings.ray_start == RayStart::filter) frame.ray_filter = ray_filter_shape(settings);
     return frame;

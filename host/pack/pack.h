@@ -68,7 +68,8 @@ struct PackedScene {
     std::vector<std::uint32_t> light_cdf;
     dev::CdfShape light_shape{};
     std::vector<dev::Spectrum> spectrum;       ///< one, or none where no path has a wavelength
-    Integrator chosen = Integrator::path;      ///< never automatic
+    Integrator chosen = Integrator::path;      ///< never automatic; see integrator_of()
+    bool photons_in_doubt = false;             ///< they were chosen, but paths alone may do better
     std::string integrator;                    ///< which one was chosen, and why: a sentence
     std::vector<dev::Caster> casters;          ///< of photons that are aimed
     std::vector<std::uint32_t> photon_lights;  ///< tree of the lights that photons come from
@@ -103,6 +104,9 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
 /// What a film of the packed scene names as its settings: text_of(settings), and the eye that the scene was
 /// packed for where it is not that of the view. Films merge only where it is equal.
 std::string text_of(const RenderSettings& settings, const PackedScene& packed);
+
+/// Who brings the light: the one that was chosen for the scene, or paths, which any packing serves.
+Integrator integrator_of(const PackedScene& packed, const RenderSettings& settings);
 
 /// Photons of a sample, where no number was asked for and none was chosen: one for each pixel, 16 million at
 /// most.

@@ -226,27 +226,34 @@ void pack_photons(const Scene& scene, const RenderSettings& settings, PackedScen
     // Once photons are traced, lights of middling size are better left to them too.
     const std::vector<bool> reason = small_triangle_lights(packed, small_light),
                             small = small_triangle_lights(packed, near_light);
+    const auto may_emit = [&](const dev::Light& l) {
+        return l.pick > 0 && (!automatic || l.type != LIGHT_ENVIRONMENT || sun);
+    };
+    const auto is_reason = [&](const dev::Light& l) {
+        return may_emit(l) && (!automatic || l.type != LIGHT_TRIANGLE || reason[&l - packed.lights.data()]);
+    };
+    packed.photons_in_doubt = std::none_of(packed.lights.begin(), packed.lights.end(), is_reason);
     std::vector<double> weights(packed.lights.size(), 0.0);
     bool any = false;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         dev::Light& l = packed.lights[i];
-        if (!(l.pick > 0)) continue;
-        if (automatic && l.type == LIGHT_TRIANGLE && !small[i]) continue;
-        if (automatic && l.type == LIGHT_ENVIRONMENT && !sun) continue;
+        if (!may_emit(l)) continue;
+        if (automatic && l.type == LIGHT_TRIANGLE && !small[i] && !packed.photons_in_doubt) continue;
         const bool afar = l.type == LIGHT_DIRECTIONAL || l.type == LIGHT_ENVIRONMENT;
         weights[i] =
             l.pick * (afar || !aimed ? 1.0 : std::clamp(share_from(packed.casters, point_of(l)), 1e-6, 1.0));
         l.flags |= LIGHT_PHOTONS;
         if (l.type == LIGHT_ENVIRONMENT) packed.environment.photons = 1;
-        any |= !automatic || l.type != LIGHT_TRIANGLE || reason[i];
+        any = true;
     }
     if (!any) return paths("no light is small enough for photons");
     packed.photon_lights_shape = cdf_shape(weights.size());
     packed.photon_lights.resize(packed.photon_lights_shape.size);
     write_cdf_tree(packed.photon_lights_shape, integer_cdf(weights), packed.photon_lights.data());
     packed.chosen = automatic ? Integrator::photons : settings.integrator;
-    packed.integrator = automatic ? "photons: something casts the light of a small source"
-                        : map     ? "photon-map: as asked"
+    packed.integrator = packed.photons_in_doubt ? "photons: something casts the light of a large source"
+                        : automatic             ? "photons: something casts the light of a small source"
+                        : map                   ? "photon-map: as asked"
                         : settings.integrator == Integrator::light ? "light: as asked"
                                                                    : "photons: as asked";
 }

@@ -28,7 +28,7 @@ double photon_radius(const PackedScene& packed, const RenderSettings& settings, 
     const dev::PhotonFrame shared = photon_frame_of(packed, settings, frame);
     const double extent = packed.bounds.radius();
     double first = settings.photon_radius;
-    if (packed.chosen == Integrator::photon_map) {
+    if (integrator_of(packed, settings) == Integrator::photon_map) {
         const dvec3 size = packed.bounds.size();
         const double area = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
         if (first == 0) first = std::sqrt(mapped_photons * area / (pi * shared.count));
@@ -52,13 +52,17 @@ double photon_radius(const PackedScene& packed, const RenderSettings& settings, 
     return std::clamp(first * shrunk, least_radius * extent, extent);
 }
 
+Integrator integrator_of(const PackedScene& packed, const RenderSettings& settings) {
+    return settings.integrator == Integrator::path ? Integrator::path : packed.chosen;
+}
+
 std::uint64_t usual_photons(const RenderSettings& settings) {
     return std::min(most_usual, std::uint64_t(settings.width) * settings.height);
 }
 
 dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings& settings,
                                  const dev::Frame& frame) {
-    const bool map = packed.chosen == Integrator::photon_map;
+    const bool map = integrator_of(packed, settings) == Integrator::photon_map;
     const std::uint64_t usual = map ? 1000000 : usual_photons(settings);
     const std::uint64_t count = settings.photons ? settings.photons : usual;
     if (count > 0xffffffffull)

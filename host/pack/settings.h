@@ -20,16 +20,17 @@ enum class RayStart {
 
 /// How light is split into wavelengths: docs/spectral.md.
 enum class Spectral {
-    automatic,  ///< RGB up to the first body that disperses, three wavelengths from there on, one after the
-                ///< other
-    off,        ///< RGB: bodies refract by their index at the d line
-    full,       ///< four wavelengths per path from the camera on; reflectances and lights upsampled from RGB
-    classic     ///< one wavelength per path from the camera on, as it was first published
+    automatic,  ///< photons where something casts and its light is small or a pilot finds them worth it, else
+                ///< paths other
+    off,     ///< RGB: bodies refract by their index at the d line
+    full,    ///< four wavelengths per path from the camera on; reflectances and lights upsampled from RGB
+    classic  ///< one wavelength per path from the camera on, as it was first published
 };
 
 /// What brings the light that mirrors and glass throw onto other surfaces.
 enum class Integrator {
-    automatic,  ///< photons where something casts and its light is small, else paths
+    automatic,  ///< photons where something casts and its light is small or a pilot finds them worth it, else
+                ///< paths
     path,       ///< paths alone: unidirectional path tracing
     photons,    ///< photons from every light: splatted where the camera sees them, gathered elsewhere
     light,      ///< splatted alone; what is met later is left to paths (light tracing)

@@ -3,7 +3,7 @@
 #include <cassert>
 
 #include "base/error.h"
-#include "render/photon_count.h"
+#include "render/photon_pilot.h"
 #include "render/renderer_state.h"
 #include "trace/node_format.h"
 
@@ -23,6 +23,15 @@ void check(const RenderSettings& s) {
         refuse("The picture has more than 2^32 pixels; render crops of it.");
 }
 
+/// What work() returns, and how long it took.
+template <class Work>
+auto timed(double& seconds, const Work& work) {
+    const auto start = RenderClock::now();
+    auto result = work();
+    seconds = seconds_since(start);
+    return result;
+}
+
 DeviceScenes scene_on(Device& device, const Scene& scene, const RenderSettings& settings) {
     return {std::make_shared<DeviceScene>(device, pack_for(scene, settings, {}, {format_of(device)}))};
 }
@@ -31,7 +40,7 @@ DeviceScenes scene_on(Device& device, const Scene& scene, const RenderSettings& 
 
 Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, const std::optional<Features>& f)
     : packed(scenes.front()->shared()),
-      settings(with_photon_count(scenes, s)),
+      settings(timed(pilot_seconds, [&] { return with_photon_pilot(scenes, s); })),
       features(f ? *f : features_of(*packed, settings)),
       store(*packed, settings) {
     assert(holds_for(*packed, s));
@@ -99,7 +108,13 @@ const PackedScene& Renderer::packed() const { return *state_->packed; }
 const Features& Renderer::features() const { return state_->features; }
 double Renderer::build_seconds() const { return state_->build_seconds; }
 double Renderer::compile_seconds() const { return state_->compile_seconds; }
+std::string Renderer::integrator() const {
+    const PackedScene& packed = *state_->packed;
+    if (integrator_of(packed, state_->settings) == packed.chosen) return packed.integrator;
+    return packed.photons_in_doubt ? "path: a pilot found photons not worth their work" : "path: as asked";
+}
 std::uint64_t Renderer::photons() const { return state_->photons(); }
+double Renderer::pilot_seconds() const { return state_->pilot_seconds; }
 double Renderer::photon_seconds() const { return state_->photon_seconds; }
 
 std::uint64_t Renderer::device_bytes() const {

@@ -76,8 +76,11 @@ class Renderer {
 
     const PackedScene& packed() const;
     const Features& features() const;
+    /// Who brings the light, and why: a sentence.
+    std::string integrator() const;
     /// With every sample of the picture, or in all for the classic map; 0: none.
     std::uint64_t photons() const;
+    double pilot_seconds() const;    ///< that choosing photons took, with compiling for it
     double photon_seconds() const;   ///< that photons and their maps have taken
     double build_seconds() const;    ///< trees and packing; 0: they were there
     double compile_seconds() const;  ///< kernels, with the warm-up launch

@@ -14,6 +14,7 @@ inline double seconds_since(RenderClock::time_point start) {
 
 struct Renderer::State {
     std::shared_ptr<const PackedScene> packed;
+    double pilot_seconds = 0;  ///< that the choice of photons took
     RenderSettings settings;
     Features features;
     FilmStore store;

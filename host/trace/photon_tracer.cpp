@@ -19,14 +19,14 @@ PhotonTracer::PhotonTracer(const DeviceScene& scene, const RenderSettings& setti
                            std::size_t tiles)
     : scene_(scene), device_(scene.device()), settings_(settings), frame_(frame) {
     const PackedScene& packed = scene.packed();
-    if (packed.chosen == Integrator::path) return;
+    if (integrator() == Integrator::path) return;
     const dev::PhotonFrame shared = photon_frame_of(packed, settings, frame);
     count_ = shared.count;
     shared_ = device_.upload(std::vector<dev::PhotonFrame>{shared});
     lights_ = device_.upload(packed.photon_lights);
     casters_ = device_.upload(packed.casters);
     tiles_ = device_.upload(std::vector<std::uint32_t>(tiles, 1));
-    if (packed.chosen != Integrator::light) map_ = PhotonMap(device_, count_);
+    if (integrator() != Integrator::light) map_ = PhotonMap(device_, count_);
 }
 
 void PhotonTracer::compile(const Options& options, const Arguments& arguments, const FilmPart& part) {

@@ -22,7 +22,7 @@ class PhotonTracer {
     /// With every sample of the picture, or in all for the classic map; 0: paths bring all light.
     std::uint64_t count() const { return count_; }
     /// There is one map, made once: make_classic_map().
-    bool is_classic() const { return scene_.packed().chosen == Integrator::photon_map; }
+    bool is_classic() const { return integrator() == Integrator::photon_map; }
 
     /// Which tiles of the crop the next photons count in: one number for each, 1 or 0.
     void set_tiles(const std::vector<std::uint32_t>& chosen);
@@ -36,6 +36,8 @@ class PhotonTracer {
     std::uint64_t bytes() const;
 
   private:
+    Integrator integrator() const { return integrator_of(scene_.packed(), settings_); }
+
     const DeviceScene& scene_;
     Device& device_;
     RenderSettings settings_;

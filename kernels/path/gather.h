@@ -19,7 +19,7 @@ TRIAD_FUNCTION uint path_map_use(const Scene* scene) {
  */
 TRIAD_FUNCTION int path_leaves_to_photons(const Scene* scene, const PathState* path) {
 #if TRIAD_PHOTONS
-    if (path->pdf == 0.0f)
+    if (scene->frame->photons && path->pdf == 0.0f)
         return path_map_use(scene) ? !(path->traits & PATH_SPECULAR) : (path->traits & PATH_CAUSTIC) != 0u;
 #else
     (void)scene, (void)path;

@@ -1,5 +1,5 @@
 // The number of photons that a pilot chooses.
-#include "render/photon_count.h"
+#include "render/photon_pilot.h"
 
 #include <gtest/gtest.h>
 
@@ -38,11 +38,32 @@ Scene mirror_scene(bool away) {
     return b.scene;
 }
 
+/// The same floor and mirror under a lamp that is neither small nor large beside its distance from the
+/// mirror.
+Scene panel_scene(bool away, float side) {
+    Scene scene = mirror_scene(away);
+    scene.lights.clear();
+    Builder b;
+    b.scene = std::move(scene);
+    Material lamp = lambert(0.0f);
+    lamp.emission = vec3(10.0f);
+    b.add(shapes::quad({-side / 2, 2, 0.5f}, {side, 0, 0}, {0, 0, side}), lamp);
+    validate(b.scene);
+    return b.scene;
+}
+
+Film film_of(const Scene& scene, const RenderSettings& settings,
+             const std::optional<Features>& features = {}) {
+    Renderer renderer(test_device(), scene, settings, features);
+    renderer.render({0, 16}, [](const Progress&) { return true; });
+    return renderer.film();
+}
+
 std::uint64_t photons_of(const Scene& scene, const RenderSettings& settings) {
     return Renderer(test_device(), scene, settings).photons();
 }
 
-TEST(PhotonCount, is_where_error_times_work_is_least) {
+TEST(PhotonPilot, number_is_where_error_times_work_is_least) {
     // The least of (paths + photons / s) (rays + 8 s) over the powers of two is never much below that of
     // ours.
     for (const double paths : {0.001, 0.1, 1.0})
@@ -59,14 +80,14 @@ TEST(PhotonCount, is_where_error_times_work_is_least) {
             }
 }
 
-TEST(PhotonCount, is_small_where_what_photons_bring_is_never_seen) {
+TEST(PhotonPilot, number_is_small_where_what_photons_bring_is_never_seen) {
     const RenderSettings settings = wide_view(Integrator::automatic);
     const std::uint64_t pixels = 160 * 120;
     EXPECT_EQ(photons_of(mirror_scene(true), settings), pixels / 64);
     EXPECT_GE(photons_of(mirror_scene(false), settings), pixels / 16) << "a patch of light on the floor";
 }
 
-TEST(PhotonCount, is_that_of_the_whole_picture_and_of_no_seed) {
+TEST(PhotonPilot, number_is_that_of_the_whole_picture_and_of_no_seed) {
     const Scene scene = mirror_scene(false);
     RenderSettings settings = wide_view(Integrator::automatic);
     const std::uint64_t count = photons_of(scene, settings);
@@ -82,7 +103,7 @@ TEST(PhotonCount, is_that_of_the_whole_picture_and_of_no_seed) {
     EXPECT_EQ(photons_of(scene, settings), 160u * 120u) << "as documented";
 }
 
-TEST(PhotonCount, is_named_by_the_film_which_another_render_goes_on_from) {
+TEST(PhotonPilot, number_is_named_by_the_film_which_another_render_goes_on_from) {
     const Scene scene = mirror_scene(false);
     RenderSettings settings = wide_view(Integrator::automatic);
     Renderer chosen(test_device(), scene, settings);
@@ -94,6 +115,55 @@ TEST(PhotonCount, is_named_by_the_film_which_another_render_goes_on_from) {
     EXPECT_EQ(asked.film().settings, film.settings);
     EXPECT_EQ(asked.film().sums, film.sums);
     EXPECT_NO_THROW(asked.resume(film));
+}
+
+TEST(PhotonPilot, takes_photons_of_a_middling_light_where_they_pay) {
+    RenderSettings settings = wide_view(Integrator::automatic);
+    Renderer chosen(test_device(), panel_scene(false, 0.6f), settings);
+    ASSERT_TRUE(chosen.packed().photons_in_doubt);
+    EXPECT_GT(chosen.photons(), 0u);
+    EXPECT_EQ(chosen.integrator(), "photons: something casts the light of a large source");
+}
+
+TEST(PhotonPilot, takes_paths_with_their_bits_where_photons_do_not_pay) {
+    const Scene scene = panel_scene(true, 0.8f);
+    RenderSettings settings = wide_view(Integrator::automatic);
+    Renderer chosen(test_device(), scene, settings);
+    ASSERT_TRUE(chosen.packed().photons_in_doubt);
+    EXPECT_EQ(chosen.photons(), 0u);
+    EXPECT_EQ(chosen.integrator(), "path: a pilot found photons not worth their work");
+    chosen.render({0, 16}, [](const Progress&) { return true; });
+    settings.integrator = Integrator::path;
+    const Film asked = film_of(scene, settings);
+    EXPECT_EQ(chosen.film().sums, asked.sums);
+    EXPECT_EQ(chosen.film().settings, asked.settings) << "they merge";
+    settings.integrator = Integrator::automatic, settings.photons = 100;
+    EXPECT_EQ(photons_of(scene, settings), 100u) << "as asked";
+}
+
+TEST(PhotonPilot, paths_on_what_was_packed_for_photons_leave_nothing_to_them) {
+    const Scene scene = mirror_scene(false);
+    RenderSettings settings = wide_view(Integrator::automatic);
+    const std::shared_ptr<const PackedScene> packed = pack_for(scene, settings);
+    settings.integrator = Integrator::path;
+    ASSERT_TRUE(holds_for(*packed, settings));
+    Features all;  // a program that could
+    all.dispersion = all.light_spectra = false;
+    Renderer renderer({std::make_shared<DeviceScene>(test_device(), packed)}, settings, all);
+    renderer.render({0, 16}, [](const Progress&) { return true; });
+    EXPECT_EQ(renderer.film().sums, film_of(scene, settings).sums);
+}
+
+TEST(PhotonPilot, films_agree_unless_one_lacks_a_caustic) {
+    const Scene scene = mirror_scene(false);
+    RenderSettings photons = wide_view(Integrator::photons), paths = wide_view(Integrator::path);
+    const Film with = film_of(scene, photons), without = film_of(scene, paths);
+    EXPECT_FALSE(agree(with, without));
+    photons.seed = paths.seed = 1;
+    EXPECT_TRUE(agree(with, film_of(scene, photons)));
+    EXPECT_TRUE(agree(without, film_of(scene, paths)));
+    const Scene panel = panel_scene(false, 0.6f);
+    EXPECT_TRUE(agree(film_of(panel, photons), film_of(panel, paths)));
 }
 
 }  // namespace

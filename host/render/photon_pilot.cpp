@@ -1,0 +1,131 @@
+#include "render/photon_pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/types.h"
+#include "scene/film.h"
+#include "trace/device_scene.h"
+
+namespace triad {
+namespace {
+
+/// What a photon costs in rays of paths: it looks at every caster, is traced, splatted and sorted into a map.
+constexpr double rays_per_photon = 8;
+/// What the launches for the photons of a sample cost in rays, however few they are.
+constexpr double rays_per_flight = 10000;
+/// With so few they cost next to nothing, and fewer would be brighter specks.
+constexpr double least_photons = 1.0 / 64;
+/// Of the pilot's second flight.
+constexpr double few_photons = 1.0 / 16;
+constexpr double pilot_pixels = 3072;
+constexpr std::uint64_t pilot_samples = 16;
+constexpr std::uint32_t pilot_seed = 0x70686f74;  // none that pictures have by counting
+/// Paths alone must need this much less work: an error that they have not met is in no estimate.
+constexpr double clear_gain = 1.1;
+/// Side of the blocks of pixels whose means are compared, and how much larger than by their noise the mean
+/// square of their differences may be: with 48 blocks, chance alone has three once in thousands of times.
+constexpr std::size_t block = 8;
+constexpr double most_difference = 3;
+
+struct Pilot {
+    Film film;
+    double relmse, rays;  ///< rays of paths and photons
+};
+
+Pilot fly(Renderer& renderer, double photon_share) {
+    renderer.restart(pilot_seed);
+    renderer.render_until(
+        RenderGoal{.samples = {0, pilot_samples}, .follow = false, .photon_share = photon_share},
+        [](const Progress&) { return true; });
+    Film film = renderer.film();
+    const double relmse = std::max(estimated_relmse(film), 0.0), rays = double(film.counters[COUNTER_RAYS]);
+    return {std::move(film), relmse, rays};
+}
+
+/// Means of blocks and channels, and of their noise: half the difference of their halves.
+struct Blocks {
+    std::vector<double> means, noise;
+
+    explicit Blocks(const Film& film) {
+        const HalfMeans halves = *half_means(film);
+        const std::size_t across = (film.width + block - 1) / block;
+        means.resize(across * ((film.height + block - 1) / block) * 3);
+        noise.resize(means.size());
+        for (std::size_t p = 0; p < film.pixels(); ++p)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::size_t b = (p / film.width / block * across + p % film.width / block) * 3 + c;
+                means[b] += (double(halves.first[3 * p + c]) + halves.second[3 * p + c]) / 2;
+                noise[b] += (double(halves.first[3 * p + c]) - halves.second[3 * p + c]) / 2;
+            }
+    }
+};
+
+RenderSettings small_picture(const RenderSettings& settings) {
+    const double all = double(settings.width) * settings.height;
+    const double scale = std::min(1.0, std::sqrt(pilot_pixels / all));
+    const auto smaller = [&](unsigned side) { return unsigned(std::max(1.0, std::round(scale * side))); };
+    RenderSettings small = settings;
+    small.width = smaller(settings.width), small.height = smaller(settings.height);
+    small.crop = {};
+    small.bins_x = small.bins_y = 1;
+    small.photons = std::uint64_t(small.width) * small.height;
+    return small;
+}
+
+}  // namespace
+
+double best_photon_share(double paths, double photons, double rays_per_pixel) {
+    // (paths + photons / s) (rays_per_pixel + rays_per_photon s) is least at
+    const double best = std::sqrt(photons * rays_per_pixel / (paths * rays_per_photon));
+    if (!(best > least_photons)) return least_photons;
+    return std::exp2(std::round(std::log2(std::min(best, 1.0))));
+}
+
+bool agree(const Film& a, const Film& b) {
+    const Blocks of_a(a), of_b(b);
+    double difference = 0, noise = 0;
+    for (std::size_t i = 0; i < of_a.means.size(); ++i) {
+        const double mean = (of_a.means[i] + of_b.means[i]) / 2, d = of_a.means[i] - of_b.means[i];
+        const double weight = 1 / (mean * mean + 0.01);
+        difference += weight * d * d;
+        noise += weight * (of_a.noise[i] * of_a.noise[i] + of_b.noise[i] * of_b.noise[i]);
+    }
+    return difference <= most_difference * noise;
+}
+
+RenderSettings with_photon_pilot(const DeviceScenes& scenes, const RenderSettings& settings) {
+    const PackedScene& packed = *scenes.front()->shared();
+    if (settings.integrator != Integrator::automatic ||
+        integrator_of(packed, settings) != Integrator::photons || settings.photons > 0)
+        return settings;
+    const RenderSettings small = small_picture(settings);
+    const double pixels = double(small.width) * small.height;
+    Renderer renderer({scenes.front()}, small);
+    // Both have the same paths, and so the same noise of these.
+    const Pilot many = fly(renderer, 1), few = fly(renderer, few_photons);
+    const double photons = std::max(0.0, (few.relmse - many.relmse) / (1 / few_photons - 1));
+    const double paths = std::max(many.relmse - photons, 0.01 * many.relmse);
+    const double photon_rays = (many.rays - few.rays) / (1 - few_photons);
+    const double rays_per_pixel = (many.rays - photon_rays) / (pixels * pilot_samples);
+    const double share = best_photon_share(paths, photons, rays_per_pixel);
+    RenderSettings result = settings;
+    result.photons = std::uint64_t(std::ceil(share * double(usual_photons(settings))));
+    if (!packed.photons_in_doubt) return result;
+
+    RenderSettings alone = small;
+    alone.integrator = Integrator::path;
+    // With the same program, so that paths which are not chosen cost no compiling.
+    Renderer paths_alone({scenes.front()}, alone, renderer.features());
+    const Pilot path = fly(paths_alone, 1);
+    const double flight = rays_per_flight / (double(settings.width) * settings.height);
+    const double with_photons =
+        (paths + photons / share) * (rays_per_pixel + flight + rays_per_photon * share);
+    if (clear_gain * path.relmse * path.rays / (pixels * pilot_samples) > with_photons ||
+        !agree(path.film, many.film))
+        return result;
+    result.integrator = Integrator::path, result.photons = 0;
+    return result;
+}
+
+}  // namespace triad
