@@ -32,13 +32,15 @@ TRIAD_FUNCTION int path_ends_in_map(const Scene* scene, const PathState* path) {
     return path_map_use(scene) == PHOTON_MAP_FINAL_GATHER && !(path->traits & PATH_SPECULAR);
 }
 
-TRIAD_FUNCTION void path_gather(const Scene* scene, PathState* path, const Vertex* vertex,
-                                const VertexBsdf* v) {
+/* What the path finds there of it, to be multiplied with its throughput. */
+TRIAD_FUNCTION Colour path_gathered(const Scene* scene, const PathState* path, const Vertex* vertex,
+                                    const VertexBsdf* v) {
 #if PATH_GATHERS
     global const Frame* frame = scene->frame;
     const uint use = frame->photon_map, specular = path->traits & PATH_SPECULAR;
-    if (use == 0u || !bsdf_has_smooth(&v->bsdf)) return;
-    if (use == PHOTON_MAP_PROGRESSIVE && path->edge == 1u) return; /* splatted: photon_splat.h */
+    if (use == 0u || !bsdf_has_smooth(&v->bsdf)) return colour_splat(0.0f);
+    if (use == PHOTON_MAP_PROGRESSIVE && path->edge == 1u)
+        return colour_splat(0.0f); /* splatted: photon_splat.h */
     PhotonQuery q;
     q.position = vertex->surface.position;
     q.normal = vertex->ng;
@@ -49,9 +51,17 @@ TRIAD_FUNCTION void path_gather(const Scene* scene, PathState* path, const Verte
     q.radius = specular && use != PHOTON_MAP_VISUALISED ? scene->photon_map->sharp_radius
                                                         : scene->photon_map->radius;
     q.wavelength = path_wavelength(&path->colours);
-    path->radiance = colour_add(path->radiance, colour_mul(path->throughput, photon_gather(scene, &q, v)));
+    return photon_gather(scene, &q, v);
 #else
     (void)scene, (void)path, (void)vertex, (void)v;
+    return colour_splat(0.0f);
+#endif
+}
+TRIAD_FUNCTION void path_gather(PathState* path, Colour gathered) {
+#if PATH_GATHERS
+    path->radiance = colour_add(path->radiance, colour_mul(path->throughput, gathered));
+#else
+    (void)path, (void)gathered;
 #endif
 }
 

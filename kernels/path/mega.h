@@ -27,7 +27,7 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
 
     path_fork(scene, path, &vertex);
     const VertexBsdf bsdf = path_bsdf(scene, path, &vertex);
-    path_gather(scene, path, &vertex, &bsdf);
+    path_gather(path, path_gathered(scene, path, &vertex, &bsdf));
 
     PendingLight light;
     if (path_connect(scene, path, &vertex, &bsdf, &u, &light) && !path_occluded(scene, &light, tally))

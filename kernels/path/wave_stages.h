@@ -146,7 +146,7 @@ TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, s
         uint state = vertex_meet(scene, &path, &vertex, tally);
         if (state == WAVE_GO) {
             const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
-            path_gather(scene, &path, &vertex, &bsdf);
+            path_gather(&path, path_gathered(scene, &path, &vertex, &bsdf));
             state = vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u);
             state |= vertex_scatter(scene, &path, &vertex, &bsdf, &u, tally);
         }
@@ -180,7 +180,9 @@ TRIAD_FUNCTION_PER_CALL void wave_meet(const Scene* scene, const Pool* pool, siz
 TRIAD_FUNCTION_PER_CALL void wave_gather(const Scene* scene, const Pool* pool, size_t i) {
     if (pool->states[i] == WAVE_GO) {
         WAVE_AT_VERTEX(void) u;
-        path_gather(scene, &path, &vertex, &bsdf);
+        const Colour gathered = path_gathered(scene, &path, &vertex, &bsdf);
+        POOL_LOAD(path, pool->paths, &path);
+        path_gather(&path, gathered);
         POOL_STORE_PARTS(path, pool->paths, &path, PART_FOUND);
     }
 }

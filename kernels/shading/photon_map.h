@@ -126,23 +126,25 @@ TRIAD_FUNCTION void photon_add(const Scene* scene, const PhotonMap* map, const P
         !(query->which == PHOTON_CAUSTIC ? photon_is_caustic(&photon) : photon_edges(&photon) > 1u))
         return;
     if (query->most_edges != 0u && photon_edges(&photon) > query->most_edges) return;
-    Vec3 power = vec3_scale(VEC3_OF(photon.power),
-                            fma(-2.0f, distance2, 2.0f) / (MATH_PI * math_square(query->radius)));
 #if TRIAD_DISPERSION
     const float wavelength = photon_wavelength(&photon);
-    if (wavelength > 0.0f && query->wavelength > 0.0f) {
-        if (!(fabs(wavelength - query->wavelength) < map->wavelengths)) return;
-        power = vec3_scale(power, 0.5f / map->wavelengths);
-    } else if (wavelength > 0.0f) {
-        power = vec3_mul(power, spectrum_filter(scene->spectrum, wavelength));
-    }
+    const int narrow = wavelength > 0.0f && query->wavelength > 0.0f;
+    if (narrow && !(fabs(wavelength - query->wavelength) < map->wavelengths)) return;
 #endif
-    const Vec3 from = photon_from(&photon);
-    const Vec3 wi = frame_to_local(&v->frame, from);
+    const Vec3 wi = frame_to_local(&v->frame, photon_from(&photon));
     const float lit = vec3_dot(normal, query->normal) > 0.0f ? 1.0f : -1.0f;
     if (!(wi.z * lit > 0.0f)) return; /* light must not go through by the shading normal */
     float pdf;
-    const Vec3 value = vec3_mul(bsdf_eval(&v->bsdf, v->wo, wi, &pdf), power);
+    const Vec3 f = bsdf_eval(&v->bsdf, v->wo, wi, &pdf);
+    Vec3 power = vec3_scale(VEC3_OF(stored->power),
+                            fma(-2.0f, distance2, 2.0f) / (MATH_PI * math_square(query->radius)));
+#if TRIAD_DISPERSION
+    if (narrow)
+        power = vec3_scale(power, 0.5f / map->wavelengths);
+    else if (wavelength > 0.0f)
+        power = vec3_mul(power, spectrum_filter(scene->spectrum, wavelength));
+#endif
+    const Vec3 value = vec3_mul(f, power);
     if (!film_is_finite(vec3_with(value, 0.0f))) return;
     uint saturated = 0u;
     sums[0] = add_sat(sums[0], film_fixed(value.x, scene->frame->quanta, &saturated));
@@ -151,23 +153,24 @@ TRIAD_FUNCTION void photon_add(const Scene* scene, const PhotonMap* map, const P
 }
 
 /* Radiance that the photons around a point send along the path. */
-TRIAD_FUNCTION_ONCE Vec3 photon_gather(const Scene* scene, const PhotonQuery* query, const VertexBsdf* v) {
+TRIAD_FUNCTION Vec3 photon_gather(const Scene* scene, const PhotonQuery* query, const VertexBsdf* v) {
     const PhotonMap map = *scene->photon_map;
     const Vec3 reach = vec3_splat(query->radius);
     /* two cells along each axis at most, where float no longer tells cells apart too */
     const IVec3 low = photon_cell(&map, vec3_sub(query->position, reach)),
                 last = photon_cell(&map, vec3_add(query->position, reach));
-    const IVec3 high = ivec3_make(math_min_int(last.x, low.x + 1), math_min_int(last.y, low.y + 1),
-                                  math_min_int(last.z, low.z + 1));
+    const uint along_x = last.x > low.x, along_y = last.y > low.y, along_z = last.z > low.z;
+    const uint cells = along_z << 2 | along_y << 1 | along_x; /* a bit for each axis that has a second cell */
     long sums[3] = {0, 0, 0};
-    for (int z = low.z; z <= high.z; ++z)
-        for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x) {
-                const uint bucket = photon_bucket(&map, ivec3_make(x, y, z));
-                const uint end = scene->photon_ends[bucket];
-                for (uint i = bucket == 0u ? 0u : scene->photon_ends[bucket - 1u]; i < end; ++i)
-                    photon_add(scene, &map, query, v, scene->photons + i, sums);
-            }
+    for (uint cell = 0u; cell < 8u; ++cell) {
+        if (cell & ~cells) continue;
+        const uint bucket = photon_bucket(
+            &map,
+            ivec3_make(low.x + (int)(cell & 1u), low.y + (int)(cell >> 1 & 1u), low.z + (int)(cell >> 2)));
+        const uint end = scene->photon_ends[bucket];
+        for (uint i = bucket == 0u ? 0u : scene->photon_ends[bucket - 1u]; i < end; ++i)
+            photon_add(scene, &map, query, v, scene->photons + i, sums);
+    }
     return vec3_scale(vec3_make((float)sums[0], (float)sums[1], (float)sums[2]), 1.0f / scene->frame->quanta);
 }
 
