@@ -11,34 +11,37 @@
 #define TRIAD_ARGUMENTS_H
 
 /* The scene: what every kernel that shades begins with. */
-#define SCENE_LIST(FIRST, ARRAY)                                                            \
-    FIRST(Frame, frame) /* one: everything of the picture that is no array */               \
-    ARRAY(BvhNode, nodes)                                                                   \
-    ARRAY(TriangleBlock, blocks)                                                            \
-    ARRAY(Instance, instances)                                                              \
-    ARRAY(Triangle, triangles)                                                              \
-    ARRAY(Geometry, geometries)                                                             \
-    ARRAY(float, normals)  /* [3] for each vertex that has one */                           \
-    ARRAY(float, tangents) /* [4] */                                                        \
-    ARRAY(float, uvs)      /* [2] */                                                        \
-    ARRAY(float, colours)  /* [4] */                                                        \
-    ARRAY(Material, materials)                                                              \
-    ARRAY(TextureUse, texture_uses)                                                         \
-    ARRAY(Texture, textures)                                                                \
-    ARRAY(uint, texels)                                                                     \
-    ARRAY(float, srgb)   /* decoded value of every byte of an sRGB texel */                 \
-    ARRAY(float, albedo) /* directional-albedo tables of shading/bsdf.h */                  \
-    ARRAY(Light, lights)                                                                    \
-    ARRAY(uint, light_cdf)     /* tree of shape frame->lights */                            \
-    ARRAY(uint, env_texels)    /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */                  \
-    ARRAY(uint, env_rows)      /* tree of shape environment.rows */                         \
-    ARRAY(ushort, env_columns) /* trees of shape environment.columns */                     \
-    ARRAY(float, env_cosines)  /* height + 1: of the polar angle of the rows' borders */    \
-    ARRAY(Spectrum, spectrum)                                                               \
-    ARRAY(float, indices)    /* tables of (n, its change to the next row), SPECTRUM_ROWS */ \
-    ARRAY(float, ray_filter) /* tables of shape frame->ray_filter */                        \
-    ARRAY(PhotonMap, photon_map)                                                            \
-    ARRAY(Photon, photons)   /* bucket by bucket */                                         \
+#define SCENE_LIST(FIRST, ARRAY)                                                                             \
+    FIRST(Frame, frame) /* one: everything of the picture that is no array */                                \
+    ARRAY(BvhNode, nodes)                                                                                    \
+    ARRAY(TriangleBlock, blocks)                                                                             \
+    ARRAY(Instance, instances)                                                                               \
+    ARRAY(Triangle, triangles)                                                                               \
+    ARRAY(Geometry, geometries)                                                                              \
+    ARRAY(float, normals)  /* [3] for each vertex that has one */                                            \
+    ARRAY(float, tangents) /* [4] */                                                                         \
+    ARRAY(float, uvs)      /* [2] */                                                                         \
+    ARRAY(float, colours)  /* [4] */                                                                         \
+    ARRAY(Material, materials)                                                                               \
+    ARRAY(TextureUse, texture_uses)                                                                          \
+    ARRAY(Texture, textures)                                                                                 \
+    ARRAY(uint, texels)                                                                                      \
+    ARRAY(float, srgb)   /* decoded value of every byte of an sRGB texel */                                  \
+    ARRAY(float, albedo) /* directional-albedo tables of shading/bsdf.h */                                   \
+    ARRAY(Light, lights)                                                                                     \
+    ARRAY(uint, light_cdf) /* tree of shape frame->lights */                                                 \
+    ARRAY(LightNode, light_nodes)                                                                            \
+    ARRAY(uint,                                                                                              \
+          light_trails)     /* of Lights: which child the way from the root takes, bits 3 k up at depth k */ \
+    ARRAY(uint, env_texels) /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */                                      \
+    ARRAY(uint, env_rows)   /* tree of shape environment.rows */                                             \
+    ARRAY(ushort, env_columns) /* trees of shape environment.columns */                                      \
+    ARRAY(float, env_cosines)  /* height + 1: of the polar angle of the rows' borders */                     \
+    ARRAY(Spectrum, spectrum)                                                                                \
+    ARRAY(float, indices)    /* tables of (n, its change to the next row), SPECTRUM_ROWS */                  \
+    ARRAY(float, ray_filter) /* tables of shape frame->ray_filter */                                         \
+    ARRAY(PhotonMap, photon_map)                                                                             \
+    ARRAY(Photon, photons)   /* bucket by bucket */                                                          \
     ARRAY(uint, photon_ends) /* of the buckets */
 
 /* path/mega.cl, after the scene: the film, of which sums and half_sums hold the pixels from first_pixel on,

@@ -272,6 +272,21 @@ typedef struct Light {
 } Light;
 TRIAD_SIZE(Light, 96);
 
+/* A node of the tree over point, spot and triangle lights: its eight children, side by side. The lights of a
+ * child lie in its sphere; their axes lie within an angle of the child's, and the light of each of them
+ * within another of its own axis. */
+#define LIGHT_NODE_CHILDREN 8
+#define LIGHT_NODE_LEAF 0x80000000u
+typedef struct LightNode {
+    float centre[3][LIGHT_NODE_CHILDREN], radius[LIGHT_NODE_CHILDREN];
+    float axis[3][LIGHT_NODE_CHILDREN];
+    float spread_cosine[LIGHT_NODE_CHILDREN], spread_sine[LIGHT_NODE_CHILDREN]; /* of the first angle */
+    float least_cosine[LIGHT_NODE_CHILDREN];                                    /* of the second */
+    float power[LIGHT_NODE_CHILDREN];                                           /* 0: no child */
+    uint content[LIGHT_NODE_CHILDREN]; /* a LightNode, or LIGHT_NODE_LEAF | a Light */
+} LightNode;
+TRIAD_SIZE(LightNode, 384);
+
 /* The shape of a tree over n intervals of [0, 2^32 - 1), searched eight bounds at a time. Level k holds every
  * 8^(levels - 1 - k)-th bound, in groups of eight, from first[k] on; the last level holds them all, and the
  * final bound 2^32 - 1 after them. What is over is filled with 2^32 - 1. */
@@ -375,10 +390,11 @@ typedef struct Frame {
     uint max_depth;   /* edges; 0 = no limit */
     uint transparent; /* 1: the camera does not see the environment; alpha is 0 there */
     uint light_count;
-    float quanta;           /* fixed-point units per unit of radiance: a power of two */
-    uint root[BVH_FORMATS]; /* node of the world's tree, by TRIAD_BVH4 */
-    CdfShape lights;        /* the tree that lights are picked by */
-    float roulette;         /* 1 / throughput below which roulette kills, in proportion */
+    float quanta;                  /* fixed-point units per unit of radiance: a power of two */
+    uint root[BVH_FORMATS];        /* node of the world's tree, by TRIAD_BVH4 */
+    CdfShape lights;               /* the tree that lights are picked by */
+    uint light_first, light_range; /* shares of 2^31 by which it picks a light of the tree of LightNodes */
+    float roulette;                /* 1 / throughput below which roulette kills, in proportion */
     uint first_block; /* of random numbers: 0, or SAMPLER_SOBOL_BLOCKS to have none of Sobol's sequence */
     uint wavelength_from_camera; /* 1: every path has a wavelength from its start on */
     uint ray_start;              /* RAY_START_* */
@@ -386,7 +402,7 @@ typedef struct Frame {
     uint photons;    /* 1: light of LIGHT_PHOTONS is left to photons where they bring it */
     uint photon_map; /* PHOTON_MAP_*, or 0: paths gather no photons */
 } Frame;
-TRIAD_SIZE(Frame, 344);
+TRIAD_SIZE(Frame, 352);
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling
@@ -406,7 +422,7 @@ TRIAD_SIZE(TileWork, 32);
  * they would share few lines of a cache), and how many planes paths, hits and lights have at most. */
 #define POOL_SLOTS 256
 #define POOL_PLANE 272
-#define POOL_PATH_PLANES 80
+#define POOL_PATH_PLANES 83
 #define POOL_HIT_PLANES 6
 #define POOL_LIGHT_PLANES 20
 

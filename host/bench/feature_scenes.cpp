@@ -123,6 +123,15 @@ void use_glass(FeatureScene& s) {
     ring.roughness = 0.1f;
 }
 
+void add_point_lights(FeatureScene& s, int count) {
+    for (int i = 0; i < count; ++i) {
+        PunctualLight light;
+        light.position = {0.5 - 0.1 * double(s.scene.lights.size()), 1.8, 1.0};
+        light.colour = vec3(3.0f);
+        s.scene.lights.push_back(light);
+    }
+}
+
 using Use = void (*)(FeatureScene&);
 
 /// How a scene uses a feature, and what it must use already.
@@ -157,13 +166,10 @@ const std::map<std::string, Recipe>& recipes() {
         {"UNLIT", {[](FeatureScene& s) { s.scene.materials[rock_material].unlit = true; }}},
         {"TRIANGLE_LIGHTS",
          {[](FeatureScene& s) { s.scene.materials[lamp_material].emission = vec3(5.0f); }}},
-        {"PUNCTUAL_LIGHTS", {[](FeatureScene& s) {
-             PunctualLight light;
-             light.position = {0.5, 1.8, 1.0};
-             light.colour = vec3(3.0f);
-             s.scene.lights.push_back(light);
-         }}},
+        {"PUNCTUAL_LIGHTS", {[](FeatureScene& s) { add_point_lights(s, 1); }}},
         {"ENVIRONMENT_MAP", {use_environment_map}},
+        {"LIGHT_TREE",
+         {[](FeatureScene& s) { add_point_lights(s, 1); }, [](FeatureScene& s) { add_point_lights(s, 16); }}},
         {"LENS", {[](FeatureScene& s) {
              s.settings.view.lens_radius = 0.03;
              s.settings.view.focus_distance = 4.4;

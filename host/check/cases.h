@@ -19,6 +19,7 @@ void add_bsdf(std::vector<CheckCase>& cases);
 void add_bsdf_energy(std::vector<CheckCase>& cases);
 void add_lights(std::vector<CheckCase>& cases);
 void add_light_samplers(std::vector<CheckCase>& cases);
+void add_light_tree(std::vector<CheckCase>& cases);
 void add_spectral(std::vector<CheckCase>& cases);
 void add_light_spectra(std::vector<CheckCase>& cases);
 void add_film(std::vector<CheckCase>& cases);

@@ -135,9 +135,9 @@ void column_of_every_share(Check& check) {
 void light_picks(Check& check) {
     Builder b;
     b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), lambert(0.5f));
-    for (int i = 0; i < 700; ++i)
+    for (int i = 0; i < 700; ++i)  // from afar: they are in no tree
         b.scene.lights.push_back(
-            {.position = {float(i % 9), 2, float(i / 9)}, .colour = vec3(float(i % 13) * 0.1f)});
+            {.type = PunctualLight::Type::directional, .colour = vec3(float(i % 13) * 0.1f)});
     validate(b.scene);
     const PackedScene packed = pack(b.scene, RenderSettings{});
     const std::size_t count = check.count(1 << 20);

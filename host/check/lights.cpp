@@ -21,7 +21,8 @@ __kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     LightSample l;
     l.uv = vec2_splat(0.0f);
     const uint pick = sampler_2d_bits(&s, SAMPLER_SOBOL_SETS).x;
-    const int lit = light_sample(&scene, vec3_splat(0.0f), pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
+    const Receiver receiver = {vec3_splat(0.0f), vec3_splat(0.0f)};
+    const int lit = light_sample(&scene, receiver, pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
                     light_complete(&scene, &l);
     float pdf = 0.0f;
     if (lit && l.distant) environment_radiance(&scene, l.direction, &pdf);

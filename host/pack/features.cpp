@@ -22,6 +22,7 @@ constexpr FeatureOption table[] = {
     {"TRIANGLE_LIGHTS", &Features::triangle_lights},
     {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
     {"ENVIRONMENT_MAP", &Features::environment_map},
+    {"LIGHT_TREE", &Features::light_tree},
     {"LENS", &Features::lens},
     {"INDEPENDENT_SAMPLES", &Features::independent_samples},
     {"RAY_STARTS", &Features::ray_starts},
@@ -81,6 +82,7 @@ Features features_of(const PackedScene& packed, const RenderSettings& settings) 
     f.dispersion =
         settings.spectral == Spectral::classic || (settings.spectral != Spectral::off && f.dispersion);
     f.light_spectra = packed.spectrum.size() > 1;
+    f.light_tree = !packed.light_tree.nodes.empty();
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;
     f.ray_starts = settings.ray_start != RayStart::jitter;

@@ -93,6 +93,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     frame.first_block = settings.independent ? SAMPLER_SOBOL_BLOCKS : 0;
     frame.wavelength_from_camera = settings.spectral == Spectral::classic;
     frame.lights = packed.light_shape;
+    frame.light_first = packed.light_tree.first_share, frame.light_range = packed.light_tree.shares;
     frame.ray_start = settings.ray_start == RayStart::centre   ? RAY_START_CENTRE
                       : settings.ray_start == RayStart::filter ? RAY_START_FILTER
                                                                : RAY_START_JITTER;

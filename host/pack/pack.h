@@ -11,6 +11,7 @@
 #include "bvh/bvh.h"
 #include "kernels/types.h"
 #include "pack/features.h"
+#include "pack/light_tree.h"
 #include "pack/settings.h"
 #include "scene/scene.h"
 
@@ -66,6 +67,7 @@ struct PackedScene {
     AlignedVector<float> normals, tangents, uvs, colours;
     std::vector<dev::Light> lights;
     std::vector<std::uint32_t> light_cdf;
+    LightTree light_tree;  ///< empty where lights are few
     dev::CdfShape light_shape{};
     std::vector<dev::Spectrum> spectrum;       ///< one, or none where no path has a wavelength
     Integrator chosen = Integrator::path;      ///< never automatic; see integrator_of()

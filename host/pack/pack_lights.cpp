@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/colour.h"
@@ -11,6 +13,9 @@ namespace {
 /// Share of the picks that all lights with any power get alike: a weak light outshines the others where it is
 /// close, or alone in its cone, and noise grows with one over the rarity of its picks.
 constexpr double even_share = 0.2;
+
+/// As many lights with a place are picked by their power alone; a tree pays for more.
+constexpr std::size_t few_lights = 16;
 
 /// What lights are weighed by: all channels alike, as the error of a picture counts them.
 double average(const vec3& c) { return (std::abs(double(c.x)) + std::abs(c.y) + std::abs(c.z)) / 3.0; }
@@ -137,6 +142,45 @@ std::vector<double> picked_weights(std::vector<double> power) {
     return power;
 }
 
+/// Sets what light sampling picks by: a tree for many lights, which is one interval among those of the
+/// others.
+void pick_lights(Picker& picker) {
+    PackedScene& packed = picker.packed;
+    std::vector<double> weights = picked_weights(picker.power);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        packed.lights[i].pick = total > 0 ? float(weights[i] / total) : 0.0f;
+    std::size_t first = weights.size();
+    std::vector<bool> in_tree(weights.size(), false);
+    std::size_t placed = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) placed += weights[i] > 0 && has_place(packed.lights[i]);
+    if (placed > few_lights) {
+        packed.light_tree = light_tree(packed.lights, picker.power);
+        for (std::size_t i = 0; i < weights.size(); ++i) {
+            if (packed.light_tree.trails[i] == TRIAD_NONE) continue;
+            in_tree[i] = true;
+            if (first == weights.size())
+                first = i;
+            else
+                weights[first] += std::exchange(weights[i], 0.0);
+        }
+    }
+    const std::vector<std::uint32_t> cdf = integer_cdf(weights);
+    packed.light_shape = cdf_shape(weights.size());
+    packed.light_cdf.resize(packed.light_shape.size);
+    write_cdf_tree(packed.light_shape, cdf, packed.light_cdf.data());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        dev::Light& l = packed.lights[i];
+        if (!in_tree[i]) l.pick = static_cast<float>((cdf[i + 1] - cdf[i]) / 4294967296.0);
+        l.area_per_pick = l.pick > 0 ? l.area / l.pick : 3e38f;
+    }
+    if (first < weights.size()) {
+        // The tree's interval in halves: what is over of the borders goes to the neighbours.
+        packed.light_tree.first_share = (cdf[first] + 1) / 2;
+        packed.light_tree.shares = cdf[first + 1] / 2 - packed.light_tree.first_share;
+    }
+}
+
 }  // namespace
 
 void pack_lights(const Scene& scene, PackedScene& packed) {
@@ -160,17 +204,8 @@ void pack_lights(const Scene& scene, PackedScene& packed) {
         picker.brightest =
             std::max({picker.brightest, double(e.colour[0]), double(e.colour[1]), double(e.colour[2])});
     }
-    const std::vector<std::uint32_t> cdf = integer_cdf(picked_weights(picker.power));
-    packed.light_shape = cdf_shape(picker.power.size());
-    packed.light_cdf.resize(packed.light_shape.size);
-    write_cdf_tree(packed.light_shape, cdf, packed.light_cdf.data());
-    bool any = false;
-    for (std::size_t i = 0; i < packed.lights.size(); ++i) {
-        packed.lights[i].pick = static_cast<float>((cdf[i + 1] - cdf[i]) / 4294967296.0);
-        packed.lights[i].area_per_pick =
-            packed.lights[i].pick > 0 ? packed.lights[i].area / packed.lights[i].pick : 3e38f;
-        any |= picker.power[i] > 0;
-    }
+    pick_lights(picker);
+    const bool any = std::any_of(picker.power.begin(), picker.power.end(), [](double p) { return p > 0; });
     if (!any) {  // a scene whose lights have no power is black: nothing to sample
         packed.lights.clear();
         packed.environment.light = TRIAD_NONE;

@@ -22,9 +22,9 @@ enum class RayStart {
 enum class Spectral {
     automatic,  ///< photons where something casts and its light is small or a pilot finds them worth it, else
                 ///< paths other
-    off,     ///< RGB: bodies refract by their index at the d line
-    full,    ///< four wavelengths per path from the camera on; reflectances and lights upsampled from RGB
-    classic  ///< one wavelength per path from the camera on, as it was first published
+    off,        ///< RGB: bodies refract by their index at the d line
+    full,       ///< four wavelengths per path from the camera on; reflectances and lights upsampled from RGB
+    classic     ///< one wavelength per path from the camera on, as it was first published
 };
 
 /// What brings the light that mirrors and glass throw onto other surfaces.

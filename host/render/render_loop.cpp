@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <ctime>
 #include <numeric>
 
 #include "render/adaptive.h"
@@ -54,12 +55,12 @@ class RenderLoop {
             if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
             if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
         }
-        const double rendered = seconds();
+        const double rendered = seconds(), processor = processor_seconds() - processor_start_;
         if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
         const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
         s_.store.set_ranges(with_before(range));
         const Stop stop = interrupted_ ? Stop::interrupt : cut_ ? Stop::time : schedule_.stop_reason();
-        return {range, stop, rendered, trend_.slope(), perceived_noise_};
+        return {range, stop, rendered, processor, trend_.slope(), perceived_noise_};
     }
 
   private:
@@ -81,6 +82,7 @@ class RenderLoop {
     /// foreseen; but photons of a further sample would be another one's in these tiles.
     bool cut_ = false;
     const RenderClock::time_point start_ = RenderClock::now();
+    const double processor_start_ = processor_seconds();
     double next_estimate_ = 0.25;
     double relmse_ = -1;
     std::optional<double> perceived_noise_;
@@ -98,6 +100,7 @@ class RenderLoop {
     void gather() { s_.store.gather(s_.tracers); }
 
     double seconds() const { return seconds_since(start_); }
+    static double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
     double samples() const { return double(total_) / double(film().pixels()); }
 
     /// The least that any pixel has.

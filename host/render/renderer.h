@@ -33,6 +33,7 @@ struct RenderResult {
     SampleRange range;  ///< what every pixel was given; adaptive: Film::samples says what beyond that
     Stop stop = Stop::samples;
     double seconds = 0;                     ///< that rendering took
+    double processor_seconds = 0;           ///< that the process took of all processors meanwhile
     std::optional<double> trend;            ///< as in Progress, of the whole render
     std::optional<double> perceived_noise;  ///< of the whole render, where it was wanted
 };

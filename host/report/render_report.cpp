@@ -43,6 +43,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"build_s", renderer.build_seconds()},
         {"compile_s", renderer.compile_seconds()},
         {"render_s", outcome.result.seconds},
+        {"render_cpu_s", outcome.result.processor_seconds},
         {"relmse", outcome.relmse < 0 ? Json() : Json(outcome.relmse)},
         {"trend", outcome.result.trend ? Json(*outcome.result.trend) : Json()},
         {"perceived_noise", outcome.result.perceived_noise ? Json(*outcome.result.perceived_noise) : Json()},

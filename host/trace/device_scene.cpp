@@ -50,6 +50,8 @@ DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> pack
     add(a.albedo, device.upload(albedo_tables()));
     copy(a.lights, packed_->lights);
     copy(a.light_cdf, packed_->light_cdf);
+    copy(a.light_nodes, packed_->light_tree.nodes);
+    copy(a.light_trails, packed_->light_tree.trails);
     share(a.env_texels, surfaces.env_texels);
     share(a.env_rows, surfaces.env_rows);
     share(a.env_columns, surfaces.env_columns);

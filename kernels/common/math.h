@@ -33,6 +33,7 @@ TRIAD_FUNCTION float math_clamp(float x, float lo, float hi) { return x > lo ? (
 TRIAD_FUNCTION int math_clamp_int(int i, int lo, int hi) { return i > lo ? (i < hi ? i : hi) : lo; }
 TRIAD_FUNCTION int math_min_int(int a, int b) { return b < a ? b : a; }
 TRIAD_FUNCTION uint math_min_uint(uint a, uint b) { return b < a ? b : a; }
+TRIAD_FUNCTION uint math_max_uint(uint a, uint b) { return a < b ? b : a; }
 TRIAD_FUNCTION float math_square(float x) { return x * x; }
 TRIAD_FUNCTION float math_mix(float a, float b, float t) { return fma(t, b - a, a); }
 

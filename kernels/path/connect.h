@@ -20,6 +20,9 @@ typedef struct PendingLight {
     Vec2 uv;
     uint flags; /* of its Light */
 #endif
+#if TRIAD_RECORD
+    uint light; /* which Light it is */
+#endif
 } PendingLight;
 
 /* Before the ray of the edge is traced: what will be read to choose a direction in a map is asked for. */
@@ -59,13 +62,20 @@ TRIAD_FUNCTION Colour connect_transmittance(const Scene* scene, const PathState*
     return colour_splat(1.0f);
 }
 
-/* 0: no light can be seen from here. */
+TRIAD_FUNCTION LightPick path_pick(const Scene* scene, const PathState* path, const Vertex* vertex,
+                                   const SamplerBlock* u) {
+    const LightPick none = {TRIAD_NONE, 0.0f};
+    if (scene->frame->light_count == 0u || path_ends_in_map(scene, path)) return none;
+    return light_pick(scene, path_receiver(path, vertex->surface.position), u->set[2].x);
+}
+
+/* pick: path_pick()'s. 0: no light can be seen from here. */
 TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const Vertex* vertex,
-                                const VertexBsdf* v, const SamplerBlock* u, PendingLight* pending) {
+                                const VertexBsdf* v, const SamplerBlock* u, LightPick pick,
+                                PendingLight* pending) {
     const Surface* s = &vertex->surface;
     LightSample light;
-    if (scene->frame->light_count == 0u || path_ends_in_map(scene, path) || !bsdf_has_smooth(&v->bsdf) ||
-        !light_sample(scene, s->position, u->set[2].x, u->set[3], &light))
+    if (!bsdf_has_smooth(&v->bsdf) || !light_sample_picked(scene, pick, s->position, u->set[3], &light))
         return 0;
     const float side = vec3_dot(light.direction, vertex->ng);
     const Vec3 wi = frame_to_local(&v->frame, light.direction);
@@ -98,6 +108,9 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
         pending->flags = light.flags;
     }
 #endif
+#if TRIAD_RECORD
+    pending->light = light.light;
+#endif
     return 1;
 }
 
@@ -120,7 +133,7 @@ TRIAD_FUNCTION void path_arrive(const Scene* scene, PathState* path, const Pendi
     (void)scene;
 #endif
     path->radiance = colour_add(path->radiance, direct);
-    record_direct(tally, scene, path, direct);
+    record_direct(tally, pending->light, path, direct);
 }
 
 #endif

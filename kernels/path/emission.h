@@ -46,21 +46,34 @@ TRIAD_FUNCTION int path_unlit(const Scene* scene, PathState* path, const Vertex*
 #endif
 }
 
-/* What the surface emits along the edge. */
-TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Vertex* vertex, Tally* tally) {
+/* The light that the edge has hit, as the vertex at its start would have picked it. */
+TRIAD_FUNCTION LightPick path_lit(const Scene* scene, const PathState* path, const Hit* hit) {
+    LightPick pick = {TRIAD_NONE, -1.0f};
+#if TRIAD_TRIANGLE_LIGHTS
+    global const Geometry* geometry = scene->geometries + scene->triangles[hit->primitive].geometry;
+    if (geometry->first_light != TRIAD_NONE && !path_is_back(path)) {
+        pick.light = geometry->first_light + hit->primitive - geometry->first_triangle;
+        if (path->pdf > 0.0f)
+            pick = light_found(scene, path_receiver(path, VEC3_OF(path->ray.origin)), pick.light);
+    }
+#else
+    (void)scene, (void)path, (void)hit;
+#endif
+    return pick;
+}
+
+/* What the surface emits along the edge; lit: path_lit()'s. */
+TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Vertex* vertex, LightPick lit,
+                                  Tally* tally) {
 #if TRIAD_TRIANGLE_LIGHTS
     const Surface* s = &vertex->surface;
-    global const Geometry* geometry = scene->geometries + s->geometry;
     global const Material* material = scene->materials + s->material;
-    if (path_is_back(path) || geometry->first_light == TRIAD_NONE ||
-        (vertex->back && !(material->flags & MATERIAL_DOUBLE_SIDED)))
-        return;
-    global const Light* found =
-        scene->lights + geometry->first_light + vertex->hit.primitive - geometry->first_triangle;
+    if (lit.light == TRIAD_NONE || (vertex->back && !(material->flags & MATERIAL_DOUBLE_SIDED))) return;
+    global const Light* found = scene->lights + lit.light;
     float weight = 1.0f;
     if ((found->flags & LIGHT_PHOTONS) && path_leaves_to_photons(scene, path)) weight = 0.0f;
     if (path->pdf > 0.0f) {
-        const Light light = *found;
+        const Light light = light_picked(scene, lit);
         weight = power_heuristic(
             1.0f / (path->pdf * light_triangle_inverse_pdf(&light, 1.0f / (vertex->hit.t * vertex->hit.t),
                                                            vec3_dot(vertex->ng, vertex->wo))));
@@ -69,7 +82,7 @@ TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Ver
         path_light(scene, &path->colours, found->flags, surface_emission(scene, material, s->uv0, s->uv1));
     path_finds(path, colour_scale(colour_mul(path->throughput, radiance), weight), tally);
 #else
-    (void)scene, (void)path, (void)vertex, (void)tally;
+    (void)scene, (void)path, (void)vertex, (void)lit, (void)tally;
 #endif
 }
 

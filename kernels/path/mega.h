@@ -17,20 +17,23 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
         path_miss(scene, path, &hit, tally);
         return 0;
     }
+    const LightPick lit = path_lit(scene, path, &hit);
     Vertex vertex = path_surface(scene, path, &hit, tally);
     if (path_unlit(scene, path, &vertex, tally)) return 0;
-    path_emission(scene, path, &vertex, tally);
+    path_emission(scene, path, &vertex, lit, tally);
     if (path_is_longest(scene, path)) {
         path_cut(path, tally);
         return 0;
     }
 
+    path_face(scene, path, &vertex);
     path_fork(scene, path, &vertex);
+    const LightPick pick = path_pick(scene, path, &vertex, &u);
     const VertexBsdf bsdf = path_bsdf(scene, path, &vertex);
     path_gather(path, path_gathered(scene, path, &vertex, &bsdf));
 
     PendingLight light;
-    if (path_connect(scene, path, &vertex, &bsdf, &u, &light) && !path_occluded(scene, &light, tally))
+    if (path_connect(scene, path, &vertex, &bsdf, &u, pick, &light) && !path_occluded(scene, &light, tally))
         path_arrive(scene, path, &light, tally);
 
     Scatter scatter;

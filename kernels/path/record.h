@@ -74,12 +74,9 @@ TRIAD_FUNCTION void record_found(const Tally* t, const PathState* path, Colour r
 }
 
 /* From the light that the vertex has chosen. */
-TRIAD_FUNCTION void record_direct(const Tally* t, const Scene* scene, const PathState* path,
-                                  Colour radiance) {
+TRIAD_FUNCTION void record_direct(const Tally* t, uint light, const PathState* path, Colour radiance) {
     global PathVertex* v = record_at(t);
-    float unused;
-    v->light =
-        cdf_find(&scene->frame->lights, scene->light_cdf, path_numbers(path).set[2].x, &unused, &unused);
+    v->light = light;
     vec3_store(vec3_add(VEC3_OF(v->direct), path_found(&path->colours, radiance)), v->direct, 0);
 }
 
@@ -94,7 +91,7 @@ TRIAD_FUNCTION void record_event(const Tally* t, const PathState* path, uint eve
 #define record_vertex(tally, path, position, hit, material) ((void)(tally))
 #define record_end(tally, why) ((void)(tally))
 #define record_found(tally, path, radiance) ((void)(tally))
-#define record_direct(tally, scene, path, radiance) ((void)(tally))
+#define record_direct(tally, light, path, radiance) ((void)(tally))
 #define record_event(tally, path, event) ((void)(tally))
 #endif
 

@@ -9,6 +9,7 @@
 
 #include "path/colour.h"
 #include "shading/coverage.h"
+#include "shading/light_tree.h"
 
 /* What a path has been so far. */
 #define PATH_STRAIGHT 1u /* only transmissions: the camera looks through */
@@ -38,6 +39,9 @@ typedef struct PathState {
     uint edge;       /* its number: the camera's ray is edge 1 */
     uint traits;     /* PATH_STRAIGHT, PATH_SPECULAR, PATH_CAUSTIC */
     float pdf; /* solid-angle density of the direction; 0: delta or camera, found by no other sampling */
+#if TRIAD_LIGHT_TREE
+    Vec3 normal; /* of the Receiver at the last vertex: path_face() */
+#endif
     Colour throughput;
 #if TRIAD_TRANSMISSION
     float body_scale; /* factor of throughput that leaving the bodies around will undo: no reason to die */
@@ -60,6 +64,9 @@ TRIAD_FUNCTION PathState path_state(const Sampler* sampler, Ray ray, PathColour 
     p.edge = 1u;
     p.traits = PATH_STRAIGHT | PATH_SPECULAR;
     p.pdf = 0.0f;
+#if TRIAD_LIGHT_TREE
+    p.normal = vec3_splat(0.0f);
+#endif
     p.throughput = colour_splat(1.0f);
 #if TRIAD_TRANSMISSION
     p.body_scale = 1.0f;
@@ -76,6 +83,17 @@ TRIAD_FUNCTION PathState path_state(const Sampler* sampler, Ray ray, PathColour 
 }
 
 TRIAD_FUNCTION Vec3 path_direction(const PathState* path) { return VEC3_OF(path->ray.direction); }
+
+/* Where the path is, at `position`, as lights see it. */
+TRIAD_FUNCTION Receiver path_receiver(const PathState* path, Vec3 position) {
+    Receiver receiver = {position, vec3_splat(0.0f)};
+#if TRIAD_LIGHT_TREE
+    receiver.normal = path->normal;
+#else
+    (void)path;
+#endif
+    return receiver;
+}
 
 TRIAD_FUNCTION float path_body_scale(const PathState* path) {
 #if TRIAD_TRANSMISSION

@@ -56,6 +56,21 @@ TRIAD_FUNCTION void path_reach(const Scene* scene, PathState* path, const Vertex
 #endif
 }
 
+/* Where lights are picked for this vertex: light from behind is lost on what transmits nothing. After
+ * path_emission(), which asks about the vertex before. */
+TRIAD_FUNCTION void path_face(const Scene* scene, PathState* path, const Vertex* v) {
+#if TRIAD_LIGHT_TREE
+    path->normal = v->ng;
+#if TRIAD_TRANSMISSION
+    if (scene->materials[v->surface.material].transmission > 0.0f) path->normal = vec3_splat(0.0f);
+#else
+    (void)scene;
+#endif
+#else
+    (void)scene, (void)path, (void)v;
+#endif
+}
+
 TRIAD_FUNCTION Vertex path_surface(const Scene* scene, PathState* path, const Hit* hit, Tally* tally) {
     const Vertex v = path_look(scene, path, hit);
     record_vertex(tally, path, v.surface.position, hit, v.surface.material);

@@ -36,7 +36,7 @@
 #define PART_NAME 1u     /* sampler */
 #define PART_EDGE 2u     /* ray, edge, traits, pdf, body_scale */
 #define PART_LOAD 4u     /* throughput, bodies */
-#define PART_FROM 8u     /* from */
+#define PART_FROM 8u     /* from, normal */
 #define PART_COLOURS 16u /* colours */
 #define PART_FOUND 32u   /* radiance, alpha */
 #define PART_FORK 64u    /* fork */
@@ -135,8 +135,13 @@ TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
     planes_colour(p, &path->throughput);
 #if TRIAD_TRANSMISSION
     planes_bodies(p, &path->bodies);
+#endif
     planes_part(p, PART_FROM);
+#if TRIAD_TRANSMISSION
     planes_vec3(p, &path->from);
+#endif
+#if TRIAD_LIGHT_TREE
+    planes_vec3(p, &path->normal);
 #endif
     planes_part(p, PART_COLOURS);
     planes_path_colour(p, &path->colours);

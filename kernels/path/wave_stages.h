@@ -101,13 +101,14 @@ TRIAD_FUNCTION_PER_CALL void wave_edge(const Scene* scene, const Pool* pool, siz
 
 /* The path is at the end of its edge: whether it ends there, WAVE_END, or is to go on, WAVE_GO. */
 TRIAD_FUNCTION_PER_CALL uint vertex_meet(const Scene* scene, PathState* path, const Vertex* vertex,
-                                         Tally* tally) {
+                                         LightPick lit, Tally* tally) {
     uint state = WAVE_END;
     if (!path_unlit(scene, path, vertex, tally)) {
-        path_emission(scene, path, vertex, tally);
+        path_emission(scene, path, vertex, lit, tally);
         if (path_is_longest(scene, path)) {
             state = WAVE_END | WAVE_LONGEST;
         } else {
+            path_face(scene, path, vertex);
             path_fork(scene, path, vertex);
             state = WAVE_GO;
         }
@@ -118,9 +119,9 @@ TRIAD_FUNCTION_PER_CALL uint vertex_meet(const Scene* scene, PathState* path, co
 /* WAVE_LIGHT: the slot has a light to be seen. */
 TRIAD_FUNCTION_PER_CALL uint vertex_connect(const Scene* scene, const Pool* pool, size_t i,
                                             const PathState* path, const Vertex* vertex,
-                                            const VertexBsdf* bsdf, const SamplerBlock* u) {
+                                            const VertexBsdf* bsdf, const SamplerBlock* u, LightPick pick) {
     PendingLight light;
-    if (!path_connect(scene, path, vertex, bsdf, u, &light)) return 0u;
+    if (!path_connect(scene, path, vertex, bsdf, u, pick, &light)) return 0u;
     POOL_STORE(light, pool->pending, &light);
     return WAVE_LIGHT;
 }
@@ -142,12 +143,14 @@ TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, s
         POOL_LOAD(path, pool->paths, &path);
         POOL_LOAD(hit, pool->hits, &hit);
         const SamplerBlock u = path_numbers(&path);
+        const LightPick lit = path_lit(scene, &path, &hit);
         Vertex vertex = path_surface(scene, &path, &hit, tally);
-        uint state = vertex_meet(scene, &path, &vertex, tally);
+        uint state = vertex_meet(scene, &path, &vertex, lit, tally);
         if (state == WAVE_GO) {
+            const LightPick pick = path_pick(scene, &path, &vertex, &u);
             const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
             path_gather(&path, path_gathered(scene, &path, &vertex, &bsdf));
-            state = vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u);
+            state = vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u, pick);
             state |= vertex_scatter(scene, &path, &vertex, &bsdf, &u, tally);
         }
         POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET | PARTS_SCATTER);
@@ -162,24 +165,25 @@ TRIAD_FUNCTION_PER_CALL void wave_meet(const Scene* scene, const Pool* pool, siz
         Hit hit;
         POOL_LOAD(path, pool->paths, &path);
         POOL_LOAD(hit, pool->hits, &hit);
+        const LightPick lit = path_lit(scene, &path, &hit);
         const Vertex vertex = path_surface(scene, &path, &hit, tally);
-        pool->states[i] = vertex_meet(scene, &path, &vertex, tally);
+        pool->states[i] = vertex_meet(scene, &path, &vertex, lit, tally);
         POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET);
     }
 }
 
-#define WAVE_AT_VERTEX                             \
-    PathState path;                                \
-    Hit hit;                                       \
-    POOL_LOAD(path, pool->paths, &path);           \
-    POOL_LOAD(hit, pool->hits, &hit);              \
-    const SamplerBlock u = path_numbers(&path);    \
-    Vertex vertex = path_look(scene, &path, &hit); \
-    const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
+#define WAVE_AT_VERTEX                          \
+    PathState path;                             \
+    Hit hit;                                    \
+    POOL_LOAD(path, pool->paths, &path);        \
+    POOL_LOAD(hit, pool->hits, &hit);           \
+    const SamplerBlock u = path_numbers(&path); \
+    Vertex vertex = path_look(scene, &path, &hit);
 
 TRIAD_FUNCTION_PER_CALL void wave_gather(const Scene* scene, const Pool* pool, size_t i) {
     if (pool->states[i] == WAVE_GO) {
         WAVE_AT_VERTEX(void) u;
+        const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
         const Colour gathered = path_gathered(scene, &path, &vertex, &bsdf);
         POOL_LOAD(path, pool->paths, &path);
         path_gather(&path, gathered);
@@ -190,7 +194,9 @@ TRIAD_FUNCTION_PER_CALL void wave_gather(const Scene* scene, const Pool* pool, s
 TRIAD_FUNCTION_PER_CALL void wave_connect(const Scene* scene, const Pool* pool, size_t i) {
     if (pool->states[i] == WAVE_GO) {
         WAVE_AT_VERTEX
-        pool->states[i] = WAVE_GO | vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u);
+        const LightPick pick = path_pick(scene, &path, &vertex, &u);
+        const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
+        pool->states[i] = WAVE_GO | vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u, pick);
     }
 }
 
@@ -198,6 +204,7 @@ TRIAD_FUNCTION_PER_CALL void wave_scatter(const Scene* scene, const Pool* pool, 
     const uint state = pool->states[i];
     if ((state & ~WAVE_LIGHT) == WAVE_GO) {
         WAVE_AT_VERTEX
+        const VertexBsdf bsdf = path_bsdf(scene, &path, &vertex);
         pool->states[i] = (state & WAVE_LIGHT) | vertex_scatter(scene, &path, &vertex, &bsdf, &u, tally);
         POOL_STORE_PARTS(path, pool->paths, &path, PARTS_SCATTER);
     }

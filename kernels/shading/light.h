@@ -1,10 +1,12 @@
-/* Light sampling: one light by its share of the power, then a point or direction on it. */
+/* Light sampling: one light by its share of the power, or of what it may send here, then a point or direction
+ * on it. */
 #ifndef TRIAD_SHADING_LIGHT_H
 #define TRIAD_SHADING_LIGHT_H
 
 #include "common/random.h"
 #include "common/sampling.h"
 #include "shading/environment.h"
+#include "shading/light_tree.h"
 #include "shading/surface.h"
 
 typedef struct LightSample {
@@ -14,6 +16,7 @@ typedef struct LightSample {
     float inverse_pdf; /* of the solid angle, the pick included; 0: a delta light, which no other sampling
                           finds */
     int distant;
+    uint light; /* its Light */
     uint flags; /* of the Light: its weight is of this spectrum */
     Vec2 uv;    /* of a map: weight and inverse_pdf are still to be looked up, by light_complete() */
 } LightSample;
@@ -105,12 +108,58 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, Vec3 p, LightSample
 }
 #endif
 
-/* Draws a light and a direction to it from p: `pick` and `u` are uniform 32-bit integers. 0 when nothing
- * arrives. */
-TRIAD_FUNCTION int light_sample(const Scene* scene, Vec3 p, uint pick, UVec2 u, LightSample* s) {
+/* Which Light, or TRIAD_NONE: none is seen. probability: of this pick; below 0: the light's share of the
+ * power.
+ */
+typedef struct LightPick {
+    uint light;
+    float probability;
+} LightPick;
+
+TRIAD_FUNCTION Light light_picked(const Scene* scene, LightPick pick) {
+    Light light = scene->lights[pick.light];
+#if TRIAD_LIGHT_TREE
+    if (pick.probability >= 0.0f) {
+        light.pick = pick.probability;
+        light.area_per_pick = pick.probability > 0.0f ? light.area / pick.probability : 3e38f;
+    }
+#endif
+    return light;
+}
+
+/* A light as light_pick() would have picked it. */
+TRIAD_FUNCTION LightPick light_found(const Scene* scene, Receiver receiver, uint index) {
+    LightPick pick = {index, -1.0f};
+#if TRIAD_LIGHT_TREE
+    if (scene->frame->light_range != 0u) pick.probability = light_tree_probability(scene, &receiver, index);
+#else
+    (void)receiver;
+#endif
+    return pick;
+}
+
+/* The light that the uniform 32-bit integer `number` picks for a receiver. */
+TRIAD_FUNCTION LightPick light_pick(const Scene* scene, Receiver receiver, uint number) {
+    LightPick pick = {0u, -1.0f};
     float unused;
-    const uint index = cdf_find(&scene->frame->lights, scene->light_cdf, pick, &unused, &unused);
-    const Light light = scene->lights[index];
+#if TRIAD_LIGHT_TREE
+    const uint rest = (number >> 1) - scene->frame->light_first;
+    if (rest < scene->frame->light_range) {
+        pick.light = light_tree_pick(scene, &receiver, rest, &pick.probability);
+        return pick;
+    }
+#else
+    (void)receiver;
+#endif
+    pick.light = cdf_find(&scene->frame->lights, scene->light_cdf, number, &unused, &unused);
+    return pick;
+}
+
+/* Draws a direction from p to a light by `u`, uniform 32-bit integers. 0 when nothing arrives. */
+TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Vec3 p, UVec2 u, LightSample* s) {
+    if (pick.light == TRIAD_NONE) return 0;
+    const Light light = light_picked(scene, pick);
+    s->light = pick.light;
     s->flags = light.flags;
 #if TRIAD_TRIANGLE_LIGHTS
     if (light.type == LIGHT_TRIANGLE) return light_sample_triangle(scene, &light, p, random_point(u), s);
@@ -131,6 +180,10 @@ TRIAD_FUNCTION int light_sample(const Scene* scene, Vec3 p, uint pick, UVec2 u, 
     }
 #endif
     return 0;
+}
+
+TRIAD_FUNCTION int light_sample(const Scene* scene, Receiver receiver, uint number, UVec2 u, LightSample* s) {
+    return light_sample_picked(scene, light_pick(scene, receiver, number), receiver.position, u, s);
 }
 
 /* The second half of light_sample, for directions that nothing stands in the way of: maps are looked up here.

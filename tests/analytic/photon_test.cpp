@@ -249,7 +249,7 @@ TEST(Photons, parts_and_work_group_sizes_change_no_bit) {
     }
 }
 
-TEST(Photons, are_used_only_where_something_casts_a_small_light) {
+TEST(Photons, are_used_where_something_casts_a_small_light_and_in_doubt_of_a_large_one) {
     const auto chosen = [](Scene scene, Integrator integrator) {
         validate(scene);
         return Renderer(test_device(), scene, settings_of(integrator)).photons() > 0;
@@ -260,8 +260,13 @@ TEST(Photons, are_used_only_where_something_casts_a_small_light) {
     EXPECT_FALSE(chosen(small.scene, Integrator::path));
     Builder middling = casters();
     middling.add(shapes::quad({-0.8f, 5, -0.8f}, {1.6f, 0, 0}, {0, 0, 1.6f}), emitter(4.0f));
-    EXPECT_FALSE(chosen(middling.scene, Integrator::automatic)) << "no reason by itself";
-    EXPECT_FALSE(chosen(with_square_light(), Integrator::automatic)) << "a large light";
+    const auto in_doubt = [](Scene scene) {
+        validate(scene);
+        return pack(scene, settings_of(Integrator::automatic)).photons_in_doubt;
+    };
+    EXPECT_FALSE(in_doubt(small.scene));
+    EXPECT_TRUE(in_doubt(middling.scene)) << "no reason by itself";
+    EXPECT_TRUE(in_doubt(with_square_light())) << "a large light";
     EXPECT_TRUE(chosen(with_square_light(), Integrator::photons));
     Builder tube = casters();
     tube.add(shapes::quad({-1.5f, 5, 0}, {3, 0, 0}, {0, 0, 0.02f}), emitter(200.0f));

@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Suite, ErrorEstimate,
                                          EstimateCase{"knot"}, EstimateCase{"metals", 0.85},
                                          EstimateCase{"corridor"}, EstimateCase{"glass", 0.9, 1.4, 0.4, rare},
                                          EstimateCase{"plates", 0.9, 1.6, 0.15, rare},
-                                         EstimateCase{"lamps", 0.9, 1.6, 0.35, rare},
+                                         EstimateCase{"lamps", 0.9, 2.6, 0.15, rare},
                                          EstimateCase{"garden", 0.9, 1.25, 0.6, rare},
                                          EstimateCase{"rotunda", 0.8, 1.3, 0.5, rare}),
                          [](const auto& info) { return std::string(info.param.picture); });

@@ -7,7 +7,6 @@ import hashlib
 import json
 import math
 import pathlib
-import statistics
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -36,14 +35,10 @@ def digest(path):
 
 
 class Triad:
-    """Triad tells no processor time of rendering. It is that of the process less that of one with a single sample, which loads, builds
-    and decides about photons the same."""
-
     family = "triad"
 
     def __init__(self, name, options):
         self.name, self.options, self.adaptive = name, options, name == "triad-error"
-        self.setups = {}  # by scene and threads
 
     def missing(self):
         return "" if self.options.triad.exists() else f"there is no program {self.options.triad} (--triad names another)"
@@ -58,9 +53,9 @@ class Triad:
 
     def warm_up(self, scene, effort, threads):
         """Kernels are compiled for a scene, not for an effort."""
-        self._process(scene, ("--error", "1e9") if self.adaptive else ("--spp", "1"), 1, threads)
+        self.render(scene, ("--error", "1e9") if self.adaptive else ("--spp", "1"), 1, threads)
 
-    def _process(self, scene, effort, seed, threads):
+    def render(self, scene, effort, seed, threads):
         out, report = self.options.folder / "triad.exr", self.options.folder / "triad.json"
         glb = Glb(scene.file)
         lens = next(glb.json["cameras"][node["camera"]] for node, _ in glb.nodes() if "camera" in node)
@@ -70,20 +65,9 @@ class Triad:
                  else ["--background", "#000000", "--env-strength", "0"])
         seconds = processor_seconds([self.options.triad, "render", scene.file, "-q", "-o", out, "--json", report, *view, *light, *effort,
                                      "--seed", str(seed), "--threads", str(threads), "--max-depth", DEPTH])
-        row = json.loads(report.read_text())
-        return picture(out), seconds, row["rows"][0], f"Triad {row['version']}"
-
-    def _setup(self, scene, threads):
-        """CPU seconds before the first sample: measured again with every picture, the median so far."""
-        known = self.setups.setdefault((scene, threads), [])
-        for _ in range(1 if known else 3):
-            _, seconds, row, _ = self._process(scene, ("--spp", "1"), 1, threads)
-            known.append(seconds - threads * row["render_s"])
-        return statistics.median(known)
-
-    def render(self, scene, effort, seed, threads):
-        image, seconds, row, version = self._process(scene, effort, seed, threads)
-        return Rendered(image, row["spp"], max(seconds - self._setup(scene, threads), 1e-3), seconds, version)
+        report = json.loads(report.read_text())
+        row = report["rows"][0]
+        return Rendered(picture(out), row["spp"], row["render_cpu_s"], seconds, f"Triad {report['version']}")
 
 
 class Child:

@@ -13,7 +13,7 @@ using namespace triad;
 namespace {
 
 /// A picture whose error and pace are known: relMSE = error_at_one n^slope.
-struct Picture {
+struct NoisyPicture {
     double error_at_one = 1, slope = -1, seconds_per_sample = 0.1;
     double scatter = 0;  ///< relative, of the estimates
     double slower = 0;   ///< by how much samples beyond 16 take longer, as adaptive ones may
@@ -35,7 +35,7 @@ struct Outcome {
 };
 
 /// What the renderer does with a schedule: passes of a sample, or finer ones where sampling is adaptive.
-Outcome follow(const RenderGoal& goal, Picture picture) {
+Outcome follow(const RenderGoal& goal, NoisyPicture picture) {
     Schedule schedule(goal, 1);
     Outcome o;
     while (const auto end = schedule.next_round(o.samples, o.seconds)) {
@@ -72,7 +72,7 @@ TEST(Schedule, the_error_asked_for_is_reached_and_not_by_far) {
     for (const bool adaptive : {false, true})
         for (const double slope : {-0.8, -1.0, -1.4})
             for (const double error : {0.05, 0.002, 1e-5}) {
-                const Picture picture{.slope = slope};
+                const NoisyPicture picture{.slope = slope};
                 const Outcome o =
                     follow({.samples = {0, no_limit}, .error = error, .adaptive = adaptive}, picture);
                 EXPECT_EQ(o.stop, Stop::error);
@@ -86,7 +86,7 @@ TEST(Schedule, the_error_asked_for_is_reached_and_not_by_far) {
 TEST(Schedule, estimates_that_scatter_do_not_move_the_error_reached) {
     std::vector<double> ratios;
     for (unsigned seed = 0; seed < 200; ++seed) {
-        const Picture picture{.slope = -1.1, .scatter = 0.05, .random = std::mt19937(seed)};
+        const NoisyPicture picture{.slope = -1.1, .scatter = 0.05, .random = std::mt19937(seed)};
         const Outcome o = follow({.samples = {0, no_limit}, .error = 0.001, .adaptive = true}, picture);
         ratios.push_back(picture.error(o.samples) / 0.001);
         EXPECT_GT(ratios.back(), 1 / 1.5) << seed;
@@ -134,7 +134,7 @@ TEST(Schedule, a_time_shorter_than_one_sample_gives_one_sample) {
 }
 
 TEST(Schedule, whichever_goal_is_first_ends_it) {
-    const Picture picture{};  // 0.1 s a sample, relMSE 1 / n
+    const NoisyPicture picture{};  // 0.1 s a sample, relMSE 1 / n
     EXPECT_EQ(follow({.samples = {0, 50}, .error = 0.01, .seconds = 9}, picture).stop, Stop::samples);
     EXPECT_EQ(follow({.samples = {0, 150}, .error = 0.01, .seconds = 20}, picture).stop, Stop::error);
     EXPECT_EQ(follow({.samples = {0, 150}, .error = 0.01, .seconds = 5}, picture).stop, Stop::time);

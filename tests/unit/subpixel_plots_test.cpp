@@ -31,7 +31,7 @@ std::vector<SubpixelRow> twenty() {
     return rows;
 }
 
-std::size_t count(const std::string& text, const std::string& what) {
+std::size_t times(const std::string& text, const std::string& what) {
     std::size_t n = 0;
     for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
     return n;
@@ -53,8 +53,8 @@ TEST(SubpixelPlots, dots_are_ranked_and_the_smallest_interval_is_drawn) {
     rows.resize(20);
     const auto letters = method_letters(rows);
     const std::string svg = ranked_dots(rows, letters);
-    EXPECT_EQ(count(svg, "<circle"), 20u);
-    EXPECT_EQ(count(svg, ">triad<"), 1u);
+    EXPECT_EQ(times(svg, "<circle"), 20u);
+    EXPECT_EQ(times(svg, ">triad<"), 1u);
     std::string best;
     for (const auto& [name, letter] : letters)
         if (letter == 'A') best = name;
@@ -74,9 +74,9 @@ TEST(SubpixelPlots, error_for_time_has_a_letter_for_every_row) {
     const std::string svg = error_for_time(rows, method_letters(rows));
     std::size_t marks = 0;
     for (const auto& [name, letter] : method_letters(rows))
-        marks += count(svg, std::string(">") + letter + "<");
+        marks += times(svg, std::string(">") + letter + "<");
     EXPECT_EQ(marks, rows.size());
-    EXPECT_EQ(count(svg, "<path"), 1u);
+    EXPECT_EQ(times(svg, "<path"), 1u);
     if (const char* folder = std::getenv("TRIAD_PLOTS")) {  // to be looked at
         std::ofstream(std::string(folder) + "/time.svg") << svg;
         std::ofstream(std::string(folder) + "/dots.svg")
