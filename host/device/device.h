@@ -63,8 +63,9 @@ void survive_drivers(int argc, char** argv);
 DeviceList list_devices();
 
 /// A file of what is kept about a device with this driver, these settings and the kernels as they are now, in
-/// `folder` of the cache folder; empty when nothing can be kept.
-std::filesystem::path kept_path(const DeviceInfo& device, const std::string& folder);
+/// `folder` of the cache folder; empty when nothing can be kept. about: tells several of one device apart.
+std::filesystem::path kept_path(const DeviceInfo& device, const std::string& folder,
+                                const std::string& about = {});
 
 /// An error of the OpenCL layer: exit code 5 (4 when memory ran out). what() has the call, the code by name
 /// and number, device, driver, program, kernel, build options and the whole build log, as far as they apply.

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "kernels/types.h"
+#include "render/kept_pilot.h"
 #include "scene/film.h"
 #include "trace/device_scene.h"
 
@@ -73,6 +77,31 @@ RenderSettings small_picture(const RenderSettings& settings) {
     return small;
 }
 
+PilotChoice chosen(const std::shared_ptr<const DeviceScene>& scene, const RenderSettings& settings,
+                   const RenderSettings& small) {
+    const double pixels = double(small.width) * small.height;
+    Renderer renderer({scene}, small);
+    // Both have the same paths, and so the same noise of these.
+    const Pilot many = fly(renderer, 1), few = fly(renderer, few_photons);
+    const double photons = std::max(0.0, (few.relmse - many.relmse) / (1 / few_photons - 1));
+    const double paths = std::max(many.relmse - photons, 0.01 * many.relmse);
+    const double photon_rays = (many.rays - few.rays) / (1 - few_photons);
+    const double rays_per_pixel = (many.rays - photon_rays) / (pixels * pilot_samples);
+    const double share = best_photon_share(paths, photons, rays_per_pixel);
+    const PilotChoice with_photons{false, std::uint64_t(std::ceil(share * double(usual_photons(settings))))};
+    if (!scene->packed().photons_in_doubt) return with_photons;
+
+    RenderSettings alone = small;
+    alone.integrator = Integrator::path;
+    // With the same program, so that paths which are not chosen cost no compiling.
+    Renderer paths_alone({scene}, alone, renderer.features());
+    const Pilot path = fly(paths_alone, 1);
+    const double flight = rays_per_flight / (double(settings.width) * settings.height);
+    const double work = (paths + photons / share) * (rays_per_pixel + flight + rays_per_photon * share);
+    const bool pays = clear_gain * path.relmse * path.rays / (pixels * pilot_samples) > work;
+    return pays || !agree(path.film, many.film) ? with_photons : PilotChoice{true, 0};
+}
+
 }  // namespace
 
 double best_photon_share(double paths, double photons, double rays_per_pixel) {
@@ -100,31 +129,17 @@ RenderSettings with_photon_pilot(const DeviceScenes& scenes, const RenderSetting
         integrator_of(packed, settings) != Integrator::photons || settings.photons > 0)
         return settings;
     const RenderSettings small = small_picture(settings);
-    const double pixels = double(small.width) * small.height;
-    Renderer renderer({scenes.front()}, small);
-    // Both have the same paths, and so the same noise of these.
-    const Pilot many = fly(renderer, 1), few = fly(renderer, few_photons);
-    const double photons = std::max(0.0, (few.relmse - many.relmse) / (1 / few_photons - 1));
-    const double paths = std::max(many.relmse - photons, 0.01 * many.relmse);
-    const double photon_rays = (many.rays - few.rays) / (1 - few_photons);
-    const double rays_per_pixel = (many.rays - photon_rays) / (pixels * pilot_samples);
-    const double share = best_photon_share(paths, photons, rays_per_pixel);
+    const DeviceInfo& device = scenes.front()->device().info();
+    const std::string about = packed.scene + text_of(small, packed) + std::to_string(settings.width) + "x" +
+                              std::to_string(settings.height);
+    std::optional<PilotChoice> choice = kept_pilot(device, about);
+    if (!choice) {
+        choice = chosen(scenes.front(), settings, small);
+        keep_pilot(device, about, *choice);
+    }
     RenderSettings result = settings;
-    result.photons = std::uint64_t(std::ceil(share * double(usual_photons(settings))));
-    if (!packed.photons_in_doubt) return result;
-
-    RenderSettings alone = small;
-    alone.integrator = Integrator::path;
-    // With the same program, so that paths which are not chosen cost no compiling.
-    Renderer paths_alone({scenes.front()}, alone, renderer.features());
-    const Pilot path = fly(paths_alone, 1);
-    const double flight = rays_per_flight / (double(settings.width) * settings.height);
-    const double with_photons =
-        (paths + photons / share) * (rays_per_pixel + flight + rays_per_photon * share);
-    if (clear_gain * path.relmse * path.rays / (pixels * pilot_samples) > with_photons ||
-        !agree(path.film, many.film))
-        return result;
-    result.integrator = Integrator::path, result.photons = 0;
+    if (choice->paths) result.integrator = Integrator::path;
+    result.photons = choice->photons;
     return result;
 }
 

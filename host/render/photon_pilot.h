@@ -19,7 +19,8 @@ bool agree(const Film& a, const Film& b);
 /// (PackedScene::photons_in_doubt) and paths alone reach an error in less work. Else the settings as they
 /// are. The pilot is a small picture of the whole view, with a seed and samples of its own: it depends on
 /// scene, view and size alone, so that crops, ranges and seeds of a picture have the same choice. Devices
-/// count by the same rays; where rounding differs in the last bit the choice could, and a film names it.
+/// count by the same rays; where rounding differs in the last bit the choice could, and a film names it. What
+/// was chosen is kept (kept_pilot.h).
 RenderSettings with_photon_pilot(const DeviceScenes& scenes, const RenderSettings& settings);
 
 }  // namespace triad

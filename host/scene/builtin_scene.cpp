@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "base/parallel_for.h"
 #include "scene/shapes.h"
 
 namespace triad {
@@ -32,42 +34,48 @@ Image terrazzo(unsigned side) {
         unsigned cells;
         double share, reach;
         std::uint32_t salt;
+        std::vector<dvec2> middles;  // of its cells, from their corners
     };
-    const Layer layers[] = {{34, 0.55, 0.30, 11}, {12, 0.62, 0.33, 5}};
-    for (unsigned y = 0; y < side; ++y) {
-        for (unsigned x = 0; x < side; ++x) {
-            dvec3 colour = plaster * (0.97 + 0.06 * random_of(x / 2, y / 2, 77));
-            for (const Layer& layer : layers) {
-                const dvec2 p = dvec2(x + 0.5, y + 0.5) * (double(layer.cells) / side);
-                const ivec2 cell(glm::floor(p));
-                double nearest = 9, second = 9;
-                unsigned who = 0;
-                for (int j = -1; j <= 1; ++j) {
-                    for (int i = -1; i <= 1; ++i) {
-                        const ivec2 c = cell + ivec2(i, j);
-                        const unsigned cx = (c.x + layer.cells) % layer.cells,
-                                       cy = (c.y + layer.cells) % layer.cells;
-                        const unsigned id = cy * layer.cells + cx;
-                        const dvec2 middle =
-                            dvec2(c) + 0.15 +
-                            0.7 * dvec2(random_of(id, 1, layer.salt), random_of(id, 2, layer.salt));
-                        const double d = glm::length(p - middle);
-                        if (d < nearest)
-                            second = nearest, nearest = d, who = id;
-                        else
-                            second = std::min(second, d);
-                    }
+    Layer layers[] = {{34, 0.55, 0.30, 11, {}}, {12, 0.62, 0.33, 5, {}}};
+    for (Layer& layer : layers)
+        for (unsigned id = 0; id < layer.cells * layer.cells; ++id)
+            layer.middles.push_back(0.15 +
+                                    0.7 * dvec2(random_of(id, 1, layer.salt), random_of(id, 2, layer.salt)));
+    const auto colour_at = [&](unsigned x, unsigned y) {
+        dvec3 colour = plaster * (0.97 + 0.06 * random_of(x / 2, y / 2, 77));
+        for (const Layer& layer : layers) {
+            const dvec2 p = dvec2(x + 0.5, y + 0.5) * (double(layer.cells) / side);
+            const ivec2 cell(glm::floor(p));
+            double nearest = 81, second = 81;  // squares
+            unsigned who = 0;
+            for (int j = -1; j <= 1; ++j)
+                for (int i = -1; i <= 1; ++i) {
+                    const ivec2 c = cell + ivec2(i, j);
+                    const unsigned id =
+                        (c.y + layer.cells) % layer.cells * layer.cells + (c.x + layer.cells) % layer.cells;
+                    const dvec2 off = p - (dvec2(c) + layer.middles[id]);
+                    const double d = glm::dot(off, off);
+                    if (d < nearest)
+                        second = nearest, nearest = d, who = id;
+                    else
+                        second = std::min(second, d);
                 }
-                const double size = layer.reach * (0.55 + 0.9 * random_of(who, 3, layer.salt));
-                if (random_of(who, 4, layer.salt) > layer.share || second - nearest < 0.16 || nearest > size)
-                    continue;
-                const auto kind = static_cast<std::size_t>(random_of(who, 5, layer.salt) * std::size(chips));
-                colour = chips[kind] * (0.85 + 0.3 * random_of(who, 6, layer.salt));
-            }
-            for (int c = 0; c < 3; ++c)
-                image.texels[(std::size_t(y) * side + x) * 4 + c] = encode_srgb(colour[c]);
+            nearest = std::sqrt(nearest), second = std::sqrt(second);
+            const double size = layer.reach * (0.55 + 0.9 * random_of(who, 3, layer.salt));
+            if (random_of(who, 4, layer.salt) > layer.share || second - nearest < 0.16 || nearest > size)
+                continue;
+            const auto kind = static_cast<std::size_t>(random_of(who, 5, layer.salt) * std::size(chips));
+            colour = chips[kind] * (0.85 + 0.3 * random_of(who, 6, layer.salt));
         }
-    }
+        return colour;
+    };
+    parallel_for(side, 16, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y)
+            for (unsigned x = 0; x < side; ++x) {
+                const dvec3 colour = colour_at(x, unsigned(y));
+                for (int c = 0; c < 3; ++c) image.texels[(y * side + x) * 4 + c] = encode_srgb(colour[c]);
+            }
+    });
     return image;
 }
 
