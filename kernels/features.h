@@ -45,7 +45,7 @@
 #ifndef TRIAD_ENVIRONMENT_MAP /* the environment is a map (else one colour, possibly black) */
 #define TRIAD_ENVIRONMENT_MAP 1
 #endif
-#ifndef TRIAD_LIGHT_TREE /* there are many lights: they are picked by a tree, for the point that they light */
+#ifndef TRIAD_LIGHT_TREE /* there are many lights: a tree picks them for the point that they light */
 #define TRIAD_LIGHT_TREE 1
 #endif
 #ifndef TRIAD_LENS /* the camera has an aperture */

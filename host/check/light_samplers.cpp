@@ -13,26 +13,6 @@ namespace {
 
 using namespace picture_case;
 
-/// A kernel over the scene's arrays, with `body` computing Vec4 w from i, s (sampler of item i) and scene.
-std::vector<std::array<float, 4>> draw(Check& check, const PackedScene& packed, const std::string& body,
-                                       std::size_t count) {
-    RenderSettings settings;
-    const std::string source = R"(#include "shading/light.h"
-__kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
-    const uint i = get_global_id(0);
-    if (i >= count) return;
-    const Scene scene = SCENE_FROM_PARAMETERS;
-    const Sampler s = sampler_make(0u, i, 0u, 0u, 5u);
-    const SamplerBlock u = sampler_block(&s, SAMPLER_SOBOL_BLOCKS);
-    Vec4 w;
-    )" + body + R"(
-    out[i] = w;
-}
-)";
-    return run_kernel<std::array<float, 4>>(check.device, source, "draw",
-                                            scene_arguments(check.device, packed, settings), count);
-}
-
 PackedScene packed_under(EnvironmentMap map) {
     Builder b;
     b.add(shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), lambert(0.5f));
@@ -83,14 +63,14 @@ void cells_by_their_density(Check& check) {
          {std::tuple{53u, 29u, 20.0f}, {33u, 7u, 1e7f}, {1100u, 4u, 5.0f}}) {
         const PackedScene packed = packed_under(hard_map(width, height, sun));
         const std::size_t count = check.count(1 << 20);
-        const auto drawn = draw(check, packed, R"(
+        const auto drawn = draw_lights(check, packed, R"(
     const Environment e = scene.frame->environment;
     Vec2 uv;
     const Vec3 d = environment_sample(&scene, &e, u.set[0], &uv);
     const Vec2 back = environment_uv(&e, d);
     w = vec4_make(uv.x, uv.y, fabs(back.x - uv.x), fabs(back.y - uv.y));
 )",
-                                count);
+                                       count);
         const std::vector<double> shares = shares_of(packed);
         std::vector<double> counts(shares.size()), expected(shares.size());
         double off = 0;
@@ -115,11 +95,11 @@ void column_of_every_share(Check& check) {
     for (const unsigned width : {1u, 31u, 32u, 33u, 1024u, 1025u, 5000u}) {
         const EnvironmentMap map = hard_map(width, 1, 3.0f);
         const PackedScene packed = packed_under(map);
-        const auto found = draw(check, packed, R"(
+        const auto found = draw_lights(check, packed, R"(
     const uint column = columns_descend(&scene, 0u, i << 16, scene.frame->environment.columns.levels);
     w = vec4_make((float)column, 0.0f, 0.0f, 0.0f);
 )",
-                                1 << 16);
+                                       1 << 16);
         const auto texel = [&](unsigned x) { return double(map.rgb[std::size_t(x % width) * 3]); };
         std::vector<double> weights(width);
         for (unsigned x = 0; x < width; ++x)
@@ -141,12 +121,12 @@ void light_picks(Check& check) {
     validate(b.scene);
     const PackedScene packed = pack(b.scene, RenderSettings{});
     const std::size_t count = check.count(1 << 20);
-    const auto drawn = draw(check, packed, R"(
+    const auto drawn = draw_lights(check, packed, R"(
     float fraction, probability;
     const uint k = cdf_find(&scene.frame->lights, scene.light_cdf, u.set[2].x, &fraction, &probability);
     w = vec4_make((float)k, fabs(probability - scene.lights[k].pick), fraction, 0.0f);
 )",
-                            count);
+                                   count);
     std::vector<double> counts(packed.lights.size()), expected(packed.lights.size());
     for (const auto& d : drawn) {
         check.also_at_most(d[0], double(counts.size() - 1), "light");

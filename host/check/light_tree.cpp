@@ -50,30 +50,21 @@ Scene scene_with(const Spread& spread) {
 const char* const receivers[] = {"{vec3_make(0.3f, 0.0f, -0.2f), vec3_make(0.0f, 1.0f, 0.0f)}",
                                  "{vec3_make(-0.1f, 1.2f, 0.4f), vec3_splat(0.0f)}"};
 
-/// A kernel over the scene's arrays, with `body` computing Vec4 w from i, pick (uniform bits) and receiver.
+/// draw_lights() with pick (uniform bits) and receiver.
 std::vector<std::array<float, 4>> draw(Check& check, const PackedScene& packed, const std::string& receiver,
                                        const std::string& body, std::size_t count) {
-    const std::string source = R"(#include "shading/light.h"
-__kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
-    const uint i = get_global_id(0);
-    if (i >= count) return;
-    const Scene scene = SCENE_FROM_PARAMETERS;
-    const Sampler s = sampler_make(0u, i, 0u, 0u, 5u);
-    const uint pick = sampler_block(&s, SAMPLER_SOBOL_BLOCKS).set[2].x;
-    Receiver receiver = )" + receiver +
-                               R"(;
-    receiver.position = vec3_sub(receiver.position, vec3_make(ORIGIN));
-    Vec4 w;
-    )" + body + R"(
-    out[i] = w;
-}
-)";
-    std::string placed = source;
     const dvec3 o = packed.origin;
-    placed.replace(placed.find("ORIGIN"), 6,
-                   std::to_string(o.x) + "f, " + std::to_string(o.y) + "f, " + std::to_string(o.z) + "f");
-    return run_kernel<std::array<float, 4>>(check.device, placed, "draw",
-                                            scene_arguments(check.device, packed, RenderSettings{}), count);
+    const std::string origin =
+        std::to_string(o.x) + "f, " + std::to_string(o.y) + "f, " + std::to_string(o.z) + "f";
+    return draw_lights(check, packed,
+                       R"(
+    const uint pick = u.set[2].x;
+    Receiver receiver = )" +
+                           receiver + R"(;
+    receiver.position = vec3_sub(receiver.position, vec3_make()" +
+                           origin + R"());
+)" + body,
+                       count);
 }
 
 void picks_have_their_probability(Check& check) {

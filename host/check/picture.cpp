@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "check/kernels.h"
+
 namespace triad::picture_case {
 
 Material lambert(float albedo) {
@@ -132,6 +134,24 @@ Measured measure(Check& check, const Scene& scene, Plan plan) {
     if (check.level == CheckLevel::tiny) plan.spp = 4, plan.size = std::min(plan.size, 4u);
     return measure(check.device, scene, plan,
                    check.level < CheckLevel::full ? std::optional<Features>(Features{}) : std::nullopt);
+}
+
+std::vector<std::array<float, 4>> draw_lights(Check& check, const PackedScene& packed,
+                                              const std::string& body, std::size_t count) {
+    const std::string source = R"(#include "shading/light.h"
+__kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Sampler s = sampler_make(0u, i, 0u, 0u, 5u);
+    const SamplerBlock u = sampler_block(&s, SAMPLER_SOBOL_BLOCKS);
+    Vec4 w;
+    )" + body + R"(
+    out[i] = w;
+}
+)";
+    return run_kernel<std::array<float, 4>>(check.device, source, "draw",
+                                            scene_arguments(check.device, packed, RenderSettings{}), count);
 }
 
 void expect_closed_form(Check& check, const std::string& what, const Measured& m, double expected,

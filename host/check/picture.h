@@ -1,8 +1,10 @@
 #pragma once
 /// Scenes with a known answer: a few primitives, a camera, and statistics of the picture.
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "check/measurements.h"
 #include "render/renderer.h"
@@ -38,6 +40,11 @@ RenderSettings varied_settings();
 /// The film of these sample ranges. `features` replaces those of the scene.
 Film render(Device& device, const Scene& scene, const RenderSettings& settings,
             const std::vector<SampleRange>& ranges, const std::optional<Features>& features = {});
+
+/// A kernel over the scene's arrays, with `body` computing Vec4 w from i, s and u (sampler of item i and a
+/// block of its numbers) and scene.
+std::vector<std::array<float, 4>> draw_lights(Check& check, const PackedScene& packed,
+                                              const std::string& body, std::size_t count);
 
 /// Mean of a channel over the picture, and the standard error of that mean from independent seeds.
 struct Measured {
