@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 struct Outcome {
@@ -21,4 +24,10 @@ inline Outcome run_triad(const std::string& arguments, const std::string& before
     const int status = ::pclose(pipe);
     outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return outcome;
+}
+
+/// What a file holds that it wrote.
+inline std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }

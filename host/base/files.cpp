@@ -6,9 +6,11 @@
 
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -30,7 +32,7 @@ std::string reason() { return std::strerror(errno); }
 
 }  // namespace
 
-std::vector<std::uint8_t> read_file(const fs::path& path, std::uint64_t cap) {
+InputFile::InputFile(const fs::path& path) : path_(path) {
     // O_NONBLOCK: opening a FIFO must not hang; the type is checked on the open descriptor, not on the name.
     Descriptor file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
     if (file.fd < 0) throw Error(Exit::scene, "Cannot open " + path.string() + ": " + reason() + ".");
@@ -38,28 +40,48 @@ std::vector<std::uint8_t> read_file(const fs::path& path, std::uint64_t cap) {
     if (::fstat(file.fd, &status) != 0)
         throw Error(Exit::scene, "Cannot stat " + path.string() + ": " + reason() + ".");
     if (!S_ISREG(status.st_mode)) throw Error(Exit::scene, path.string() + " is not a regular file.");
-    const auto size = static_cast<std::uint64_t>(status.st_size);
-    if (size > cap)
-        throw Error(Exit::scene, path.string() + " has " + std::to_string(size) + " bytes; the limit is " +
-                                     std::to_string(cap) + ".");
-    std::vector<std::uint8_t> bytes(size);
-    std::uint64_t done = 0;
-    while (done < size) {
-        const ssize_t n = ::read(file.fd, bytes.data() + done, size - done);
+    size_ = static_cast<std::uint64_t>(status.st_size);
+    std::swap(descriptor_, file.fd);
+}
+
+InputFile::~InputFile() { ::close(descriptor_); }
+
+void InputFile::read(void* to, std::size_t bytes) {
+    std::size_t done = 0;
+    while (done < bytes) {
+        const ssize_t n = ::read(descriptor_, static_cast<char*>(to) + done, bytes - done);
         if (n < 0 && errno == EINTR) continue;
         if (n <= 0)
-            throw Error(Exit::scene, "Cannot read " + path.string() + ": " +
+            throw Error(Exit::scene, "Cannot read " + path_.string() + ": " +
                                          (n < 0 ? reason() : "it became shorter") + ".");
-        done += static_cast<std::uint64_t>(n);
+        done += static_cast<std::size_t>(n);
     }
+}
+
+std::vector<std::uint8_t> read_file(const fs::path& path, std::uint64_t cap) {
+    InputFile file(path);
+    if (file.size() > cap)
+        throw Error(Exit::scene, path.string() + " has " + std::to_string(file.size()) +
+                                     " bytes; the limit is " + std::to_string(cap) + ".");
+    std::vector<std::uint8_t> bytes(file.size());
+    file.read(bytes.data(), bytes.size());
     return bytes;
 }
 
+namespace {
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
+
+/// The name under which process `pid` writes the file. The extension stays last: image writers choose the
+/// format by it.
+std::string name_aside(const fs::path& path, const std::string& pid) {
+    return "." + path.stem().string() + ".part" + pid + path.extension().string();
+}
+
+}  // namespace
+
 void write_aside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-    // The extension stays last: image writers choose the format by it.
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    const fs::path aside = folder / ("." + path.stem().string() + ".part" + std::to_string(::getpid()) +
-                                     path.extension().string());
+    const fs::path aside = folder_of(path) / name_aside(path, std::to_string(::getpid()));
     struct Cleanup {
         const fs::path& aside;
         ~Cleanup() {
@@ -85,20 +107,44 @@ void write_aside(const fs::path& path, const std::function<void(const fs::path&)
     if (failed) throw Error(Exit::scene, "Cannot write " + path.string() + ": " + failed.message() + ".");
 }
 
-void write_file(const fs::path& path, std::string_view bytes) {
+void write_file(const fs::path& path, const std::function<void(const ByteSink&)>& produce) {
     write_aside(path, [&](const fs::path& aside) {
         Descriptor file{::open(aside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)};
-        std::size_t done = 0;
-        while (file.fd >= 0 && done < bytes.size()) {
-            const ssize_t n = ::write(file.fd, bytes.data() + done, bytes.size() - done);
-            if (n < 0 && errno == EINTR) continue;
-            if (n <= 0) break;
-            done += static_cast<std::size_t>(n);
-        }
-        // Pipes and devices cannot be synchronised: EINVAL.
-        if (file.fd < 0 || done < bytes.size() || (::fsync(file.fd) != 0 && errno != EINVAL))
+        const auto fail = [&] {
             throw Error(Exit::scene, "Cannot write " + path.string() + ": " + reason() + ".");
+        };
+        if (file.fd < 0) fail();
+        produce([&](std::string_view bytes) {
+            std::size_t done = 0;
+            while (done < bytes.size()) {
+                const ssize_t n = ::write(file.fd, bytes.data() + done, bytes.size() - done);
+                if (n < 0 && errno == EINTR) continue;
+                if (n <= 0) fail();
+                done += static_cast<std::size_t>(n);
+            }
+        });
+        // Pipes and devices cannot be synchronised: EINVAL.
+        if (::fsync(file.fd) != 0 && errno != EINVAL) fail();
     });
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+    write_file(path, [&](const ByteSink& write) { write(bytes); });
+}
+
+void remove_leftovers(const fs::path& path, bool all) {
+    const std::string begin = "." + path.stem().string() + ".part", end = path.extension().string();
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_of(path), failed)) {
+        const std::string name = entry.path().filename().string();
+        if (name.size() <= begin.size() + end.size() || !name.starts_with(begin) || !name.ends_with(end))
+            continue;
+        const std::string pid = name.substr(begin.size(), name.size() - begin.size() - end.size());
+        if (pid.size() > 9 || pid.find_first_not_of("0123456789") != std::string::npos) continue;
+        const bool is_gone = ::kill(std::stoi(pid), 0) != 0 && errno == ESRCH;
+        const auto age = fs::file_time_type::clock::now() - entry.last_write_time(failed);
+        if (all || (is_gone && age > std::chrono::minutes(1))) fs::remove(entry.path(), failed);
+    }
 }
 
 bool is_older_than_a_day(const fs::path& path) {

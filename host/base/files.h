@@ -19,8 +19,33 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
 void write_aside(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path&)>& write);
 
+/// A regular file that is read from its beginning. Throws Error(scene) that names the path.
+class InputFile {
+  public:
+    explicit InputFile(const std::filesystem::path& path);
+    ~InputFile();
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+
+    std::uint64_t size() const { return size_; }
+    /// The next bytes; it is an error when they are not there.
+    void read(void* to, std::size_t bytes);
+
+  private:
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+using ByteSink = std::function<void(std::string_view)>;
+/// write_aside of what `produce` gives to the sink, piece by piece, checked and synchronised.
+void write_file(const std::filesystem::path& path, const std::function<void(const ByteSink&)>& produce);
 /// write_aside of these bytes, checked to the last one (a full disk is an Error(scene)).
 void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Removes what processes that died while they wrote `path` left beside it. `all`: nobody writes it now, so
+/// that every such file is a leftover; else those of processes that are gone from this machine for a minute.
+void remove_leftovers(const std::filesystem::path& path, bool all);
 
 /// Whether a file was last written more than a day ago, or cannot be asked.
 bool is_older_than_a_day(const std::filesystem::path& path);

@@ -1,9 +1,13 @@
 #pragma once
-/// Ctrl-C and SIGTERM: the first asks to stop after the pass at hand, the second ends the process at once.
+/// Signals that ask a program to end: the first asks to stop after the pass at hand, the second ends the
+/// process at once.
+#include <csignal>
+#include <vector>
 
 namespace triad {
 
-/// Catches the two signals while it lives.
+/// Catches Ctrl-C, SIGTERM, SIGHUP (a terminal that closes), SIGQUIT and SIGXCPU (a limit on processor time)
+/// while it lives; those that were ignored before (nohup) stay so.
 class InterruptGuard {
   public:
     InterruptGuard();
@@ -13,6 +17,13 @@ class InterruptGuard {
 
     /// A signal came.
     bool interrupted() const;
+
+  private:
+    struct Caught {
+        int signal;
+        struct sigaction before;
+    };
+    std::vector<Caught> caught_;
 };
 
 }  // namespace triad

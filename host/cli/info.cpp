@@ -1,11 +1,12 @@
-// triad info: what is in a scene, before any device is asked.
+// triad info: what is in a scene or a film, before any device is asked.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 
-#include "base//log.h"
+#include "base/log.h"
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "cli/info_film.h"
 #include "io/io.h"
 #include "report/report.h"
 #include "scene/scene.h"
@@ -132,13 +133,17 @@ void add_info(CLI::App& app, Exit& exit) {
         int scene = -1;
     };
     auto o = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("info", "Show what is in a scene, and its faults");
-    command->add_option("SCENE", o->path, "glTF file, .gltf or .glb")->required()->type_name("");
+    CLI::App* command = app.add_subcommand("info", "Show what is in a scene or a film, and its faults");
+    command->add_option("SCENE|FILM", o->path, "glTF file, .gltf or .glb; or a film of triad render")
+        ->required()
+        ->type_name("");
     command->add_option("--scene", o->scene, "Which scene of the file (default: the one it names)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N");
     command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
-    command->callback([o, &exit] { exit = run(o->path, o->scene, o->json); });
+    command->callback([o, &exit] {
+        exit = is_film(o->path) ? info_film(o->path, o->json) : run(o->path, o->scene, o->json);
+    });
 }
 
 }  // namespace triad

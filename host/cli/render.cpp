@@ -2,12 +2,14 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/file_lock.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/render_options.h"
+#include "cli/resume.h"
 #include "kernels/types.h"
 #include "report/pixel_table.h"
 #include "report/render_report.h"
@@ -67,13 +69,16 @@ ProgressState shown(const Progress& p, const RenderGoal& goal) {
             .perceived_noise = p.perceived_noise};
 }
 
-Exit run(const RenderRequest& request) {
+/// `command`: for what is said when the render stops before its goal.
+Exit run(const RenderRequest& request, const CLI::App& command) {
     RenderSession session(request);
     describe(session);
     if (session.request().pixel) {
         tell_pixel(session);
         return Exit::done;
     }
+    if (session.resumed_samples() > 0)
+        inform("Going on from " + spp_text(session.resumed_samples()) + " samples per pixel");
     const InterruptGuard guard;
     const RenderGoal& goal = session.goal();
     RenderOutcome outcome;
@@ -104,7 +109,23 @@ Exit run(const RenderRequest& request) {
     inform(format("Stopped early: every pixel has samples %llu to %llu.",
                   static_cast<unsigned long long>(outcome.result.range.begin),
                   static_cast<unsigned long long>(outcome.result.range.end)));
+    inform(request.film_path.empty()
+               ? "No film was kept, so that the render cannot go on; with --film FILE it could."
+               : "To go on: " + command_that_goes_on(command, session.request().film_path));
     return Exit::interrupted;
+}
+
+Exit begin_or_go_on(const CLI::App& command, RenderRequest request) {
+    if (request.resume_path.empty()) {
+        request.words = words_of_picture(command);
+        return run(request, command);
+    }
+    std::string nothing_to_do;
+    const RenderRequest whole = resumed(command, request, nothing_to_do);
+    if (nothing_to_do.empty()) return run(whole, command);
+    FileLock::clear(request.resume_path);  // of a process that was killed when it was done
+    inform(nothing_to_do);
+    return Exit::done;
 }
 
 }  // namespace
@@ -113,7 +134,7 @@ void add_render(CLI::App& app, Exit& exit) {
     auto o = std::make_shared<RenderRequest>();
     CLI::App* command = app.add_subcommand("render", "Render a scene; without one the built-in scene");
     declare(*command, *o);
-    command->callback([o, &exit] { exit = run(*o); });
+    command->callback([o, command, &exit] { exit = begin_or_go_on(*command, *o); });
 }
 
 }  // namespace triad

@@ -247,8 +247,25 @@ void declare_output(CLI::App& command, RenderRequest& o) {
             CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}))
         ->type_name("LIST")
         ->group(output_group);
-    command.add_option("--film", o.film_path, "Also write the film, for triad merge and triad resolve")
+    command
+        .add_option("--film", o.film_path,
+                    "Also write the film, now and then while rendering: for --resume, triad merge and triad "
+                    "resolve")
         ->type_name("FILE")
+        ->group(output_group);
+    command
+        .add_option(
+            "--resume", o.resume_path,
+            "Go on from this film, with the scene and the options that it was begun with; the film is "
+            "written to it, or to --film")
+        ->type_name("FILM")
+        ->group(output_group);
+    command
+        .add_option("--checkpoint", o.checkpoint,
+                    "Seconds between two films that are written while rendering (default 60, or more where "
+                    "writing takes long)")
+        ->check(number_within(0, 1e9))
+        ->type_name("S")
         ->group(output_group);
     command.add_option("--json", o.json_path, "Write times, rays and errors as JSON")
         ->type_name("FILE")

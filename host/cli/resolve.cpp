@@ -1,6 +1,5 @@
 // triad resolve: pictures from a film or from any renderer's larger picture, without rendering.
 #include <algorithm>
-#include <fstream>
 #include <memory>
 
 #include "cli/command_line.h"
@@ -19,13 +18,6 @@ struct ResolveOptions {
     ReconstructRequest reconstruct;
     bool toned = false;  ///< --exposure or --tonemap was given
 };
-
-bool is_film(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    char magic[9] = {};
-    file.read(magic, sizeof magic);
-    return std::string(magic, sizeof magic) == "TRIADFILM";
-}
 
 void resolve_film(ResolveOptions& o) {
     const Film film = load_film(o.source);

@@ -1,8 +1,12 @@
 #include "display/perceived_sets.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <memory>
+#include <string_view>
 
+#include "base/error.h"
 #include "kernels/types.h"
 #include "panel/perceived.h"
 
@@ -35,6 +39,31 @@ Film rows_of(const Film& film, unsigned set, unsigned begin, unsigned end) {
             part.samples.push_back(film.samples[p]);
         }
     return part;
+}
+
+[[noreturn]] void refuse() {
+    throw Error(Exit::scene, "The film cannot go on: what it keeps of the perceived error is damaged.");
+}
+
+/// How many, and their bytes.
+template <class T>
+void append(std::string& to, const std::vector<T>& values) {
+    const std::uint64_t count = values.size();
+    to.append(reinterpret_cast<const char*>(&count), sizeof count);
+    to.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+template <class T>
+std::vector<T> take(std::string_view& from) {
+    std::uint64_t count = 0;
+    if (from.size() < sizeof count) refuse();
+    std::memcpy(&count, from.data(), sizeof count);
+    from.remove_prefix(sizeof count);
+    if (count > from.size() / sizeof(T)) refuse();
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(values.data(), from.data(), count * sizeof(T));
+    from.remove_prefix(count * sizeof(T));
+    return values;
 }
 
 /// The mean over every tile.
@@ -88,11 +117,23 @@ SetErrors PerceivedSets::of(const Film& film, const SetSamples& have) {
     return first ? SetErrors{} : errors_;
 }
 
-std::function<SetErrors(const Film&, const SetSamples&)> perceived_sets(Device& device,
-                                                                        const PanelView& panel,
-                                                                        const DisplaySettings& display) {
-    return [sets = std::make_shared<PerceivedSets>(device, panel, display)](
-               const Film& film, const SetSamples& have) { return sets->of(film, have); };
+std::string PerceivedSets::kept() const {
+    std::string bytes;
+    append(bytes, had_), append(bytes, errors_);
+    for (const std::vector<float>& shown : before_) append(bytes, shown);
+    return bytes;
+}
+
+void PerceivedSets::go_on_from(const std::string& kept) {
+    std::string_view rest = kept;
+    had_ = take<std::uint32_t>(rest), errors_ = take<double>(rest);
+    for (std::vector<float>& shown : before_) shown = take<float>(rest);
+    if (!rest.empty() || errors_.size() != had_.size() || before_[0].size() != before_[1].size()) refuse();
+}
+
+std::shared_ptr<SetErrorSource> perceived_sets(Device& device, const PanelView& panel,
+                                               const DisplaySettings& display) {
+    return std::make_shared<PerceivedSets>(device, panel, display);
 }
 
 }  // namespace triad

@@ -1,7 +1,9 @@
 #pragma once
 /// Where a render for a panel should take its next samples: where the eye sees the picture change.
 #include <array>
-#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "device/device.h"
 #include "display/reconstruction.h"
@@ -13,12 +15,14 @@ namespace triad {
 /// tone map and all. If a pixel is off by b / n at n samples (which is what tone maps make of noisy bins)
 /// with a variance of v / n, then its values at n and at 2 n differ by (b / 2n)^2 + v / 2n in the mean
 /// square: its squared error at 2 n.
-class PerceivedSets {
+class PerceivedSets : public SetErrorSource {
   public:
     PerceivedSets(Device& device, const PanelView& panel, const DisplaySettings& display);
 
-    /// `have`: samples of each set. Empty the first time. Throws DeviceError.
-    SetErrors of(const Film& film, const SetSamples& have);
+    /// Throws DeviceError.
+    SetErrors of(const Film& film, const SetSamples& have) override;
+    std::string kept() const override;
+    void go_on_from(const std::string& kept) override;
 
   private:
     Device& device_;
@@ -30,8 +34,7 @@ class PerceivedSets {
 };
 
 /// RenderGoal::set_errors of one render.
-std::function<SetErrors(const Film&, const SetSamples&)> perceived_sets(Device& device,
-                                                                        const PanelView& panel,
-                                                                        const DisplaySettings& display);
+std::shared_ptr<SetErrorSource> perceived_sets(Device& device, const PanelView& panel,
+                                               const DisplaySettings& display);
 
 }  // namespace triad

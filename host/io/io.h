@@ -84,5 +84,21 @@ Picture read_picture(const std::filesystem::path& path);
 void save_film(const std::filesystem::path& path, const Film& film);
 /// Throws Error(scene) for anything that save_film did not write: truncated, changed, of another version.
 Film load_film(const std::filesystem::path& path);
+/// The film without its arrays and those of its progress. Throws Error(scene).
+Film load_film_header(const std::filesystem::path& path);
+/// Whether the file begins as films do.
+bool is_film(const std::filesystem::path& path);
+
+/// What is whole of a damaged film.
+struct SalvagedFilm {
+    Film film;  ///< with zeros where rows are lost; its progress says which samples these want
+    std::vector<std::pair<unsigned, unsigned>> lost;  ///< rows of the crop, half-open
+    bool lost_progress = false;                       ///< adaptive sampling goes on from the film alone
+    bool has_more = false;                            ///< bytes that belong to no film follow
+
+    std::string damage() const;  ///< in words; empty: none
+};
+/// load_film, but what is damaged beyond the header is told and not thrown.
+SalvagedFilm salvage_film(const std::filesystem::path& path);
 
 }  // namespace triad

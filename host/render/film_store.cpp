@@ -21,6 +21,7 @@ void FilmStore::restart(const PackedScene& packed, const RenderSettings& setting
     film_.settings_text = text_of(settings, packed);
     film_.settings = Hash().add(film_.settings_text).hex();
     film_.ranges.clear();
+    film_.progress.reset();
 }
 
 void FilmStore::add_device(const DeviceInfo& device) {

@@ -1,6 +1,8 @@
 #pragma once
 /// The film of a picture, on the host: what it is called, and what the tracers' parts add up to.
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "pack/pack.h"
@@ -23,6 +25,7 @@ class FilmStore {
     void restart(const PackedScene& packed, const RenderSettings& settings);
     void add_device(const DeviceInfo& device);
     void set_ranges(std::vector<SampleRange> ranges) { film_.ranges = std::move(ranges); }
+    void set_progress(std::optional<FilmProgress> progress) { film_.progress = std::move(progress); }
     /// Reads the parts into the arrays, which are then what all tracers have found so far.
     const Film& gather(const Tracers& tracers);
 

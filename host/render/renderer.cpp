@@ -1,6 +1,8 @@
 #include "render/renderer.h"
 
 #include <cassert>
+#include <nlohmann/json.hpp>
+#include <string>
 
 #include "base/error.h"
 #include "render/photon_pilot.h"
@@ -30,6 +32,27 @@ auto timed(double& seconds, const Work& work) {
     auto result = work();
     seconds = seconds_since(start);
     return result;
+}
+
+/// Settings that are asked for and are not those of the film that is to go on, by name. Throws Error.
+void require_same_settings(const Film& here, const Film& film) {
+    if (here.scene != film.scene)
+        throw Error(Exit::scene, "The film is of another scene, or the scene's file has changed since.");
+    if (here.settings_text == film.settings_text) return;
+    const auto settings_of = [](const Film& f) {
+        const auto parsed = nlohmann::json::parse(f.settings_text, nullptr, false);
+        return parsed.is_object() ? parsed : nlohmann::json::object();
+    };
+    const nlohmann::json mine = settings_of(here), its = settings_of(film);
+    std::string differences;
+    for (const auto& [name, value] : mine.items()) {
+        if (its.contains(name) && its[name] == value) continue;
+        differences += (differences.empty() ? "" : ", ") + name + " " +
+                       (its.contains(name) ? its[name].dump() : "(unknown)") + " there and " + value.dump() +
+                       " here";
+    }
+    throw Error(Exit::usage, "The film was rendered with other settings" +
+                                 (differences.empty() ? "" : ": " + differences) + ".");
 }
 
 DeviceScenes scene_on(Device& device, const Scene& scene, const RenderSettings& settings) {
@@ -77,6 +100,8 @@ void Renderer::restart(std::uint32_t seed) {
     s.settings.seed = seed;
     for (auto& tracer : s.tracers) tracer->restart(seed);
     s.store.restart(*s.packed, s.settings);
+    s.have.clear();
+    s.progress.reset();
 }
 
 Film Renderer::film() {
@@ -89,10 +114,15 @@ void Renderer::resume(const Film& film) {
     State& s = *state_;
     Film empty = s.film();
     empty.sums.clear(), empty.half_sums.clear(), empty.samples.clear(), empty.ranges.clear();
-    require_same_picture(empty, film);
+    require_same_settings(empty, film);
+    require_same_picture(empty, film, "The film is not of this picture");
+    if (s.tracers.front()->photons().is_classic())  // the film's counters have its photons
+        s.tracers.front()->photons().make_classic_map(s.tracers.front()->part());
     for (auto& tracer : s.tracers) tracer->part().clear();
     s.tracers.front()->part().load(film);
     s.store.set_ranges(film.ranges);
+    s.have = samples_of_sets(film);
+    s.progress = film.progress;
 }
 
 FeaturePlanes Renderer::feature_planes(unsigned samples) {

@@ -55,7 +55,7 @@ class Renderer {
     ~Renderer();
 
     /// Adds samples to the film, pass by pass, until a goal is reached; report is called after every pass and
-    /// returns false to stop there. A goal of error, and adaptive sampling, want an empty film.
+    /// returns false to stop there.
     RenderResult render_until(const RenderGoal& goal, const std::function<bool(const Progress&)>& report);
     /// Adds these samples to every pixel. Returns the range that was rendered.
     SampleRange render(SampleRange range, const std::function<bool(const Progress&)>& report);
@@ -66,8 +66,10 @@ class Renderer {
 
     /// The film so far, read from the devices. Equal work gives equal bytes.
     Film film();
-    /// Goes on from a film of this picture: what is rendered from now on is added to it. Throws Error(scene)
-    /// when it is of another.
+    /// Goes on from a film of this picture: what is rendered from now on is added to it, and a goal whose
+    /// samples begin where a range of the film does wants what lies beyond. Where the film stopped before its
+    /// goal, the same goal ends with the bytes of a render that never stopped. Throws Error(scene) when the
+    /// film is of another picture.
     void resume(const Film& film);
 
     FeaturePlanes feature_planes(unsigned samples);

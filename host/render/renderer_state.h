@@ -4,6 +4,7 @@
 
 #include "render/film_store.h"
 #include "render/renderer.h"
+#include "scene/film_sets.h"
 
 namespace triad {
 
@@ -21,6 +22,8 @@ struct Renderer::State {
     Tracers tracers;
     double build_seconds = 0, compile_seconds = 0;
     double photon_seconds = 0;  ///< that photons and their maps took
+    SetSamples have;            ///< what each set of the film holds, of all ranges; empty: nothing yet
+    std::optional<FilmProgress> progress;  ///< of a render that stopped before its goal
 
     State(const DeviceScenes& scenes, const RenderSettings& settings,
           const std::optional<Features>& features);

@@ -87,7 +87,11 @@ double Schedule::time_left(double seconds) const {
 
 double Schedule::pace(double samples, double seconds) const {
     const double done = samples - round_began_samples_;
-    return done > 0 ? (seconds - round_began_seconds_) / done : seconds / samples;
+    return done > 0 ? (seconds - round_began_seconds_) / done : mean_pace(samples, seconds);
+}
+
+double Schedule::mean_pace(double samples, double seconds) const {
+    return samples > first_samples_ ? seconds / (samples - first_samples_) : 0;
 }
 
 bool Schedule::may_end_within_sample(double samples, double seconds) const {
@@ -105,13 +109,13 @@ bool Schedule::time_is_up(double samples, double seconds) const {
 }
 
 double Schedule::seconds_to_error(double samples, double seconds, const Trend& trend) const {
-    if (goal_.error <= 0 || trend.empty() || !(samples > 0)) return -1.0;
-    return std::max(0.0, trend.samples_for(goal_.error) - samples) * seconds / samples;
+    if (goal_.error <= 0 || trend.empty() || !(samples > first_samples_)) return -1.0;
+    return std::max(0.0, trend.samples_for(goal_.error) - samples) * mean_pace(samples, seconds);
 }
 
 double Schedule::seconds_left(double samples, double seconds, const Trend& trend) const {
-    if (!(samples > 0)) return -1.0;
-    double left = std::max(0.0, limit_ - samples) * seconds / samples;
+    if (!(samples > first_samples_)) return -1.0;
+    double left = std::max(0.0, limit_ - samples) * mean_pace(samples, seconds);
     const double to_error = seconds_to_error(samples, seconds, trend);
     if (to_error >= 0) left = std::min(left, to_error);
     return std::min(left, time_left(seconds));

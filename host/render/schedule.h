@@ -1,6 +1,7 @@
 #pragma once
 /// How many samples to take next, and when to stop: decisions only, without a clock, a film or a device.
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,16 @@
 #include "scene/film.h"
 
 namespace triad {
+
+/// The film is handed out while it is rendered, so that what stops the program costs little.
+struct KeptFilm {
+    std::function<void(const Film&)> write;  ///< empty: it is not
+    /// Between two; where writing would take more than one percent of the time, a hundred times what it takes
+    /// unless `exactly`.
+    double seconds = 60;
+    bool exactly = false;
+    std::vector<std::string> words;  ///< FilmProgress::words
+};
 
 /// What a render is to reach. Whichever comes first ends it.
 struct RenderGoal {
@@ -23,7 +34,8 @@ struct RenderGoal {
     double photon_share = 1;  ///< of the photons of a sample: so many are traced, and stand for all
     /// What adaptive sampling lowers; empty: the relMSE. Shown the film with one sample in every bin, with
     /// two, and at the end of every round; each set holds so many.
-    std::function<SetErrors(const Film&, const SetSamples&)> set_errors;
+    std::shared_ptr<SetErrorSource> set_errors;
+    KeptFilm keep;
 };
 
 enum class Stop { samples, error, time, interrupt };
@@ -60,6 +72,8 @@ class Schedule {
     /// Whether the error must be estimated before the next round().
     bool needs_estimate() const { return goal_.error > 0; }
     void add_estimate(double samples, double relmse) { trend_.add(samples, relmse); }
+    /// So many samples per pixel were there before time began.
+    void go_on_from(double samples) { first_samples_ = round_began_samples_ = samples; }
 
     /// Mean samples per pixel at which the round that begins now is to end; none: stop, for stop_reason().
     /// `samples` per pixel and `seconds` are those of the render so far.
@@ -90,10 +104,13 @@ class Schedule {
     Trend trend_;
     Stop stop_ = Stop::samples;
     double least_step_ = 0;
+    double first_samples_ = 0;
     double round_began_samples_ = 0, round_began_seconds_ = 0;
 
     /// Seconds for one more sample per pixel: the pace of this round, or else of all.
     double pace(double samples, double seconds) const;
+    /// The pace of all; 0: not known.
+    double mean_pace(double samples, double seconds) const;
 };
 
 }  // namespace triad

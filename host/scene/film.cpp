@@ -16,9 +16,9 @@ std::string text(const SampleRange& range) {
 
 }  // namespace
 
-void require_same_picture(const Film& a, const Film& b) {
-    const auto differ = [](const std::string& what) {
-        throw Error(Exit::scene, "The films cannot be merged: they differ in " + what + ".");
+void require_same_picture(const Film& a, const Film& b, const std::string& what) {
+    const auto differ = [&](const std::string& in) {
+        throw Error(Exit::scene, what + ": they differ in " + in + ".");
     };
     if (a.scene != b.scene) differ("their scene");
     if (a.full_width != b.full_width || a.full_height != b.full_height) differ("the size of the picture");
@@ -98,6 +98,7 @@ Film merge(std::span<const Film> parts) {
     if (whole.sample_count() > std::numeric_limits<std::uint32_t>::max())
         throw Error(Exit::scene,
                     "The films cannot be merged: together they have more than 2^32 - 1 samples per pixel.");
+    if (parts.size() > 1) whole.progress.reset();  // what a part had still to do is no matter of the whole
     for (const Film& part : parts.subspan(1)) {
         add(whole.sums, part.sums);
         add(whole.half_sums, part.half_sums);

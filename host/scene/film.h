@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace triad {
@@ -20,6 +21,18 @@ struct SampleNumbers {
     std::uint64_t total = 0;
     std::uint32_t least = 0, most = 0;  ///< of a pixel
     double mean = 0;                    ///< per pixel
+};
+
+/// What a render had still to do when its film was kept, so that it goes on as if it had never stopped.
+struct FilmProgress {
+    std::vector<std::string> words;  ///< of the command line that began it: options that decide the picture
+    SampleRange samples;             ///< asked for
+    bool ended = false;              ///< by the time asked for: nothing is owed
+    /// Of each set (SetSamples) at the end of the round at hand; empty: none is planned.
+    std::vector<std::uint32_t> wanted;
+    /// Samples per pixel and estimated relMSE at the ends of rounds.
+    std::vector<std::pair<double, double>> estimates;
+    std::string set_errors;  ///< SetErrorSource::kept()
 };
 
 /// Sums of samples in 64-bit fixed point: value = sum / 2^quanta_log2 / samples. Adding films is adding
@@ -40,6 +53,7 @@ struct Film {
     std::string scene, settings;              ///< hashes; films merge only when both are equal
     std::string settings_text;                ///< JSON of the settings that decide the picture
     std::vector<std::string> devices;         ///< sorted, unique
+    std::optional<FilmProgress> progress;     ///< of a film that is not complete
 
     std::size_t pixels() const { return std::size_t(width) * height; }
     std::size_t bins() const { return std::size_t(bins_x) * bins_y; }
@@ -53,8 +67,10 @@ struct Film {
 /// holes().
 Film merge(std::span<const Film> parts);
 
-/// Throws Error(scene) when the films are not of one picture, in words that say in what they differ.
-void require_same_picture(const Film& a, const Film& b);
+/// Throws Error(scene) when the films are not of one picture, in words that begin with `what` and say in what
+/// they differ.
+void require_same_picture(const Film& a, const Film& b,
+                          const std::string& what = "The films cannot be merged");
 
 /// What is missing in [0, end).
 std::vector<SampleRange> holes(const Film& film, std::uint64_t end);

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/log.h"
 #include "display/resolve.h"
 #include "session/metadata.h"
@@ -101,6 +102,7 @@ void check_format_for(const Reconstruction& method, const std::vector<std::strin
 
 void check_writable(const std::string& path) {
     if (path == "-") return;
+    remove_leftovers(path, false);
     if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path + ": it is a folder.");
     // What writing will do: make a file beside it. Only the attempt tells; access rights are not the whole
     // story.

@@ -36,6 +36,11 @@ void complete(RenderRequest& o) {
                     "--integrator photons, light or photon-map.");
     if (o.integrator != Integrator::photon_map && !o.final_gather)
         throw Error(Exit::usage, "--final-gather is for --integrator photon-map.");
+    if (!o.resume_path.empty() && o.film_path.empty()) o.film_path = o.resume_path;
+    if (o.pixel && !o.film_path.empty())
+        throw Error(Exit::usage, "--pixel makes no picture: it cannot be combined with --resume.");
+    if (o.checkpoint && o.film_path.empty())
+        throw Error(Exit::usage, "--checkpoint is how often a film is written: name one with --film.");
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);

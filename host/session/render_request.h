@@ -22,6 +22,10 @@ struct RenderRequest {
     std::string scene_path;  ///< empty: the built-in scene
     std::vector<std::string> outputs;
     std::string film_path, json_path, kernels_path;
+    std::string resume_path;           ///< a film to go on from
+    std::optional<double> checkpoint;  ///< seconds between two films that are written while rendering
+    /// How a command line asked for this picture and this goal: kept with a film that is not complete.
+    std::vector<std::string> words;
     bool force = false;  ///< render on a device that computes wrong answers
     std::optional<uvec2> size;
     std::optional<std::array<unsigned, 4>> crop;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/files.h"
 #include "base/log.h"
 #include "base/machine.h"
 #include "base/parallel_for.h"
@@ -23,15 +24,34 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+    std::error_code failed;
+    return a == b || std::filesystem::equivalent(a, b, failed);
+}
+
 /// Everything that can be wrong is found before the long part.
 RenderRequest checked(RenderRequest request) {
     complete(request);
+    const std::string& film = request.film_path;
+    if (std::filesystem::is_regular_file(film) && !is_same_file(film, request.resume_path))
+        throw Error(Exit::usage, "The film " + film + " is there already: triad render --resume " + film +
+                                     " goes on with it. Remove it, or name another one, to begin again.");
     for (const std::string& path : request.outputs) check_writable(path);
     for (const std::string& path : {request.film_path, request.json_path})
         if (!path.empty()) check_writable(path);
     set_host_threads(request.threads);
     if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
     return request;
+}
+
+/// None for what is no file: nothing else is replaced, or goes on.
+std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
+    const std::string& film = request.film_path;
+    if (film.empty() || (std::filesystem::exists(film) && !std::filesystem::is_regular_file(film)))
+        return nullptr;
+    auto lock = std::make_unique<FileLock>(film);
+    remove_leftovers(film, true);
+    return lock;
 }
 
 Scene timed_scene(const RenderRequest& request, double& seconds) {
@@ -82,11 +102,18 @@ std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const
 
 RenderSession::RenderSession(RenderRequest request)
     : request_(checked(std::move(request))),
+      lock_(lock_of(request_)),
       scene_(timed_scene(request_, load_seconds_)),
       settings_(settings_of(request_, scene_)),
       device_(open_device(request_)),
       renderer_(std::make_unique<Renderer>(device_, scene_, settings_)),
       goal_(request_.goal()) {
+    if (!request_.film_path.empty())
+        goal_.keep = {.write = [this](const Film& film) { keep(film); },
+                      .seconds = request_.checkpoint.value_or(KeptFilm{}.seconds),
+                      .exactly = request_.checkpoint.has_value(),
+                      .words = request_.words};
+    if (!request_.resume_path.empty()) resume();
     const auto& panel = request_.style.reconstruction.panel;
     if (!panel || request_.pixel) return;
     const DisplaySettings display = display_settings(request_.style, false);
@@ -95,9 +122,57 @@ RenderSession::RenderSession(RenderRequest request)
     if (goal_.error == 0) goal_.set_errors = perceived_sets(device_, *panel, display);
 }
 
+/// What is damaged of the film is rendered again.
+void RenderSession::resume() {
+    const std::string& path = request_.resume_path;
+    SalvagedFilm found = salvage_film(path);
+    const Film& film = found.film;
+    if (!found.damage().empty())
+        warn("Film " + path + ": " + found.damage() + "; " +
+             (found.lost.empty() ? "samples are distributed anew." : "they are rendered again."));
+    renderer_->resume(film);
+    resumed_samples_ = film.sample_numbers().mean;
+    const std::uint64_t begin = !film.ranges.empty() ? film.ranges[0].begin
+                                : film.progress      ? film.progress->samples.begin
+                                                     : goal_.samples.begin;
+    if (film.ranges.size() <= 1 && begin == goal_.samples.begin) return;
+    if (!film.is_even() || goal_.adaptive || goal_.error > 0 || goal_.seconds > 0)
+        throw Error(Exit::usage, "Film " + path +
+                                     " does not hold the first samples, or holds several ranges: only --spp "
+                                     "and --samples go on with it, and only where all pixels hold as many.");
+    missing_.emplace();
+    for (const SampleRange& hole : holes(film, goal_.samples.end))
+        if (hole.end > goal_.samples.begin)
+            missing_->push_back({std::max(hole.begin, goal_.samples.begin), hole.end});
+}
+
+/// The film as it was stays where it cannot be written, which is no reason to stop.
+void RenderSession::keep(const Film& film) {
+    try {
+        save_film(request_.film_path, film);
+    } catch (const Error& error) {
+        warn(std::string(error.what()) + " The film as it was last written stays, and rendering goes on.");
+    }
+}
+
+RenderResult RenderSession::fill_holes(const std::function<bool(const Progress&)>& report) {
+    RenderResult all;
+    for (const SampleRange& hole : *missing_) {
+        RenderGoal goal = goal_;
+        goal.samples = hole;
+        goal.keep.write = nullptr;  // a film may be ahead within its last range alone
+        RenderResult result = renderer_->render_until(goal, report);
+        result.seconds += all.seconds, result.processor_seconds += all.processor_seconds;
+        all = result;
+        if (all.stop == Stop::interrupt) break;
+        if (goal_.keep.write && hole != missing_->back()) goal_.keep.write(renderer_->film());
+    }
+    return all;
+}
+
 RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& report) {
     RenderOutcome outcome;
-    outcome.result = renderer_->render_until(goal_, report);
+    outcome.result = missing_ ? fill_holes(report) : renderer_->render_until(goal_, report);
     outcome.film = renderer_->film();
     outcome.numbers = outcome.film.sample_numbers();
     outcome.relmse = estimated_relmse(outcome.film);
@@ -127,9 +202,18 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
 }
 
 void RenderSession::write(const RenderOutcome& outcome) {
-    if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
-    write_outputs(request_.outputs, device_, outcome.film, request_.style,
-                  layers_of(request_, *renderer_, outcome.film), metadata_of(outcome));
+    const auto write_film = [&] {
+        if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
+    };
+    try {
+        write_outputs(request_.outputs, device_, outcome.film, request_.style,
+                      layers_of(request_, *renderer_, outcome.film), metadata_of(outcome));
+    } catch (const Error&) {
+        write_film();
+        throw;
+    }
+    // The film last: where it says that it is complete, the pictures are there.
+    write_film();
 }
 
 }  // namespace triad

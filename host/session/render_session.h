@@ -2,7 +2,11 @@
 /// A render from a request to files: what the command line, and any other program, goes through.
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "base/file_lock.h"
 #include "device/device.h"
 #include "render/renderer.h"
 #include "session/metadata.h"
@@ -22,13 +26,14 @@ struct RenderOutcome {
 
 class RenderSession {
   public:
-    /// Completes the request, sees that its files can be written, loads the scene, opens the device and makes
-    /// all ready. Throws Error.
+    /// Completes the request, sees that its files can be written and no one else writes its film, loads the
+    /// scene and the film to go on from, opens the device and makes all ready. Throws Error.
     explicit RenderSession(RenderRequest request);
 
-    /// Renders until the request's goal is reached or `report`, called after every pass, returns false.
+    /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
+    /// film that the request names is written meanwhile (docs/film.md).
     RenderOutcome render(const std::function<bool(const Progress&)>& report);
-    /// Writes the film and the pictures that the request names.
+    /// Writes the pictures and the film that the request names, the film even where a picture fails.
     void write(const RenderOutcome& outcome);
 
     /// What the pictures say of themselves.
@@ -41,16 +46,24 @@ class RenderSession {
     std::string scene_name() const;  ///< the file's, without folders; "built-in"
     const Device& device() const { return device_; }
     Renderer& renderer() { return *renderer_; }
+    /// Samples per pixel that the film held which the render went on from.
+    double resumed_samples() const { return resumed_samples_; }
     double load_seconds() const { return load_seconds_; }
 
   private:
     RenderRequest request_;
-    double load_seconds_ = 0;
+    std::unique_ptr<FileLock> lock_;  ///< on the film that is written
+    double load_seconds_ = 0, resumed_samples_ = 0;
     Scene scene_;
     RenderSettings settings_;
     Device device_;
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
+    std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes
+
+    void resume();
+    void keep(const Film& film);
+    RenderResult fill_holes(const std::function<bool(const Progress&)>& report);
 };
 
 }  // namespace triad

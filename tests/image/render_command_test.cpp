@@ -1,6 +1,5 @@
 // What triad render promises about its options and files, through the command line and on the built-in scene.
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,17 +11,13 @@
 
 #include "io/io.h"
 #include "program.h"
+#include "running.h"
 #include "unit/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace triad;
 
 namespace {
-
-std::string bytes_of(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
 
 void expect_done(const std::string& arguments, int exit = 0) {
     const Outcome outcome = run_triad(arguments);
@@ -32,47 +27,6 @@ void expect_done(const std::string& arguments, int exit = 0) {
 float value(const Picture& picture, const std::string& channel, unsigned x, unsigned y) {
     return picture.find(channel)->values[std::size_t(y) * picture.width + x];
 }
-
-/// A render in the background whose standard error is read as it comes.
-class Running {
-  public:
-    explicit Running(const std::string& arguments) {
-        int ends[2];
-        EXPECT_EQ(::pipe(ends), 0);
-        child_ = ::fork();
-        if (child_ == 0) {
-            ::dup2(ends[1], 2);
-            ::close(ends[0]), ::close(ends[1]);
-            ::execl("/bin/sh", "sh", "-c", ("exec '" TRIAD_PROGRAM "' " + arguments).c_str(), nullptr);
-            ::_exit(127);
-        }
-        ::close(ends[1]);
-        errors_ = ::fdopen(ends[0], "r");
-    }
-    ~Running() { std::fclose(errors_); }
-
-    /// Reads lines up to the first that holds `text`; false when the program ends before that.
-    bool says(const std::string& text) {
-        char line[4096];
-        while (std::fgets(line, sizeof line, errors_)) {
-            said_ += line;
-            if (std::string(line).find(text) != std::string::npos) return true;
-        }
-        return false;
-    }
-    void interrupt() { ::kill(child_, SIGINT); }
-    int wait() {
-        int status = 0;
-        ::waitpid(child_, &status, 0);
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
-    const std::string& said() const { return said_; }
-
-  private:
-    pid_t child_ = 0;
-    FILE* errors_ = nullptr;
-    std::string said_;
-};
 
 }  // namespace
 

@@ -1,0 +1,93 @@
+#pragma once
+/// One call of Renderer::render_until: launches until a goal is reached. Rounds end where something is
+/// decided; passes give every pixel that wants more its next samples; launches are what devices get at once.
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "render/adaptive.h"
+#include "render/launcher.h"
+#include "render/renderer_state.h"
+#include "scene/film_sets.h"
+
+namespace triad {
+
+class RenderLoop {
+  public:
+    /// Goes on from what the state's film holds of the goal's samples.
+    RenderLoop(Renderer::State& state, const RenderGoal& goal,
+               const std::function<bool(const Progress&)>& report);
+
+    RenderResult run();
+
+  private:
+    Renderer::State& s_;
+    const RenderGoal goal_;
+    const std::function<bool(const Progress&)>& report_;
+    Schedule schedule_;
+    Trend trend_;  ///< of every estimate; the schedule decides by those at the ends of rounds alone
+    std::vector<std::pair<double, double>> estimates_;  ///< these: samples per pixel, relMSE
+    const std::size_t tiles_;
+    const std::vector<std::uint32_t> pixels_;  ///< of each set
+    Launcher launcher_;
+    std::vector<SampleRange> ranges_before_;  ///< of the film, without that of the goal
+    double samples_before_ = 0;               ///< over all pixels, of these
+    SetSamples have_;                         ///< of the goal's
+    SetSamples wanted_;                       ///< at the end of the round at hand
+    SetErrors set_errors_;                    ///< the latest
+    std::uint64_t total_ = 0;                 ///< samples over all pixels: what have_ adds up to
+    std::uint64_t total_at_start_ = 0;
+    bool has_looked_ = false;  ///< goal_.set_errors was asked
+    bool interrupted_ = false;
+    /// Photons came with a sample of some tiles alone. Time may be left, where tiles took less than was
+    /// foreseen; but photons of a further sample would be another one's in these tiles.
+    bool cut_ = false;
+    const RenderClock::time_point start_ = RenderClock::now();
+    double next_estimate_ = 0.25;
+    double next_kept_ = 0;
+    bool told_of_slow_writes_ = false;
+    double relmse_ = -1;
+    std::optional<double> perceived_noise_;
+    double photon_seconds_ = 0;  ///< of all photons of a sample
+    std::uint64_t rays_ = 0;
+
+    // render_loop.cpp: rounds, and what is known of the picture
+    void go_on();
+    void go_on_from(const FilmProgress& progress);
+    bool plan_round();
+    SetSamples wanted_at(double end) const;
+    void reach(const SetSamples& wanted);
+    void look();
+    void estimate(bool decides);
+    void name_ranges();
+    std::vector<SampleRange> with_before(SampleRange range) const;
+    FilmProgress film_progress() const;
+    void keep_when_due();
+    void remember();
+    Progress progress() const;
+
+    // render_passes.cpp: what the devices do
+    bool pass(const SetSamples& wanted, unsigned run);
+    std::vector<dev::TileWork> work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const;
+    bool pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut);
+    void trace_photons(std::uint64_t sample, double share);
+    void make_classic_map();
+    std::size_t scattered(std::size_t i) const;
+    std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, std::uint32_t sample,
+                       bool may_be_cut);
+
+    const Film& film() const { return s_.film(); }
+    PhotonTracer& photons() const { return s_.tracers.front()->photons(); }
+    /// Every sample comes with photons of its own.
+    bool has_photons_per_sample() const { return photons().count() > 0 && !photons().is_classic(); }
+    void gather() { s_.store.gather(s_.tracers); }
+
+    double seconds() const { return seconds_since(start_); }
+    double samples() const { return double(total_) / double(film().pixels()); }
+    /// The least that any pixel has.
+    std::uint32_t least() const;
+};
+
+}  // namespace triad

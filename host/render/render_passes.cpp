@@ -1,0 +1,142 @@
+/// The passes of a RenderLoop.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "render/render_loop.h"
+
+namespace triad {
+namespace {
+
+/// Of the photons of a sample that is cut: fewer would be too noisy even for few tiles.
+constexpr double least_photon_share = 0.25;
+
+}  // namespace
+
+/// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
+/// which leaves sets uneven, and never happens before every pixel has a sample.
+bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
+    const auto bins = unsigned(film().bins());  // each gets as many samples, wherever a render is cut
+    run = std::max(run / bins, 1u) * bins;
+    // A film that is to go on holds no samples with a part of their photons.
+    const bool may_be_cut = least() > 0 && schedule_.may_end_within_sample(samples(), seconds()) &&
+                            !(goal_.keep.write && has_photons_per_sample());
+    const double taken = double(total_ - total_at_start_), per_sample = taken > 0 ? seconds() / taken : 0;
+    if (!goal_.adaptive && per_sample > 0) {  // even passes: the last one ends at the time asked for
+        const double fit = schedule_.time_left(seconds()) / (per_sample * double(film().pixels())) / bins;
+        const double whole = may_be_cut ? std::floor(fit) : std::round(fit);
+        run = bins * unsigned(std::clamp(whole, 1.0, double(run / bins)));
+    }
+    const std::vector<dev::TileWork> work = work_towards(wanted, run, may_be_cut);
+    if (has_photons_per_sample()) return pass_with_photons(work, may_be_cut);
+    for (auto& tracer : s_.tracers) tracer->set_work(work);
+    std::size_t done = 0;
+    while (done < work.size() && !(may_be_cut && schedule_.time_is_up(samples(), seconds()))) {
+        done += launch(work, done, 0, may_be_cut);
+        keep_when_due();
+    }
+    return done == work.size();
+}
+
+/// Up to `run` samples of every set that wants more. With photons, which are a sample's of the whole picture,
+/// only of sets that have the least, and up to what others have.
+std::vector<dev::TileWork> RenderLoop::work_towards(const SetSamples& wanted, unsigned run,
+                                                    bool may_be_cut) const {
+    std::uint32_t from = ~0u;
+    if (has_photons_per_sample()) {
+        from = least();
+        for (const std::uint32_t n : have_)
+            if (n > from) run = std::min(run, n - from);
+    }
+    std::vector<dev::TileWork> work;
+    for (std::size_t i = 0; i < tiles_; ++i) {
+        const std::size_t t = may_be_cut ? scattered(i) : i;
+        dev::TileWork w{std::uint32_t(t), {have_[2 * t], have_[2 * t + 1]}, {}, {}};
+        for (std::size_t set = 0; set < 2; ++set) {
+            const std::uint32_t have = have_[2 * t + set], want = wanted[2 * t + set];
+            if (want > have && have <= from) w.sample_count[set] = std::min(want - have, run);
+        }
+        if (w.sample_count[0] + w.sample_count[1] > 0) work.push_back(w);
+    }
+    return work;
+}
+
+/// The same for an even pass whose samples come with photons. Paths may want these, so that it must be
+/// known beforehand how many tiles time leaves.
+bool RenderLoop::pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut) {
+    const std::size_t all = work.size();
+    const std::uint32_t run = work.front().sample_count[0];
+    double share = goal_.photon_share;
+    if (may_be_cut) {
+        std::uint64_t items = 0;
+        for (const dev::TileWork& w : work) items += launcher_.samples_of(w);
+        const double paths = double(items) / launcher_.pace(), photon_time = run * photon_seconds_,
+                     left = schedule_.time_left(seconds());
+        if (const auto bins = std::uint32_t(film().bins()); run > bins && left < paths + photon_time) {
+            for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = bins;
+            return pass_with_photons(std::move(work), may_be_cut);  // fewer samples rather than tiles
+        }
+        // as many photons in proportion as tiles, but enough of them
+        double tiles = std::min(left / (paths + photon_time), 1.0);
+        share = std::max(tiles, least_photon_share);
+        if (tiles < share) tiles = std::clamp((left - share * photon_time) / paths, 0.0, 1.0);
+        work.resize(std::max<std::size_t>(std::size_t(tiles * double(all)), 1));
+    }
+    const bool on_some_tiles = work.size() < tiles_;
+    if (on_some_tiles) {
+        std::vector<std::uint32_t> chosen(tiles_, 0);
+        for (const dev::TileWork& w : work) chosen[w.tile] = 1;
+        photons().set_tiles(chosen);
+    }
+    for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = 1;
+    for (auto& tracer : s_.tracers) tracer->set_work(work);
+    for (std::uint32_t i = 0; i < run; ++i) {
+        trace_photons(goal_.samples.begin + work.front().first_sample[0] + i, share);
+        for (std::size_t done = 0; done < work.size();) done += launch(work, done, i, may_be_cut);
+        keep_when_due();
+    }
+    if (on_some_tiles) photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
+    cut_ = work.size() < all;
+    return !cut_;
+}
+
+void RenderLoop::trace_photons(std::uint64_t sample, double share) {
+    const double began = seconds();
+    Tracer& tracer = *s_.tracers.front();
+    photons().trace(sample, std::uint64_t(std::ceil(share * double(photons().count()))), tracer.part());
+    tracer.finish();
+    const double took = seconds() - began;
+    s_.photon_seconds += took;
+    photon_seconds_ = took / share;
+    schedule_.set_least_step(least_photon_share * photon_seconds_ * double(film().bins()));
+}
+
+/// Unless it was made before.
+void RenderLoop::make_classic_map() {
+    const double began = seconds();
+    photons().make_classic_map(s_.tracers.front()->part());
+    s_.photon_seconds += seconds() - began;
+}
+
+/// The tiles in an order whose every beginning is spread over the picture: a pass that is cut favours no
+/// part of it. Steps of the golden ratio, made coprime to the number of tiles.
+std::size_t RenderLoop::scattered(std::size_t i) const {
+    std::size_t step = std::max<std::size_t>(1, std::size_t(double(tiles_) * 0.6180339887498949));
+    while (std::gcd(step, tiles_) != 1) ++step;
+    return i * step % tiles_;
+}
+
+/// As much of work[first, ...) as takes launch_seconds, or the time left, on every tracer at once;
+/// `sample` samples on. Returns how many tiles that were.
+std::size_t RenderLoop::launch(const std::vector<dev::TileWork>& work, std::size_t first,
+                               std::uint32_t sample, bool may_be_cut) {
+    const double time =
+        may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds())) : launch_seconds;
+    const Launcher::Launched done = launcher_.launch(work, first, goal_.samples.begin + sample, time);
+    total_ += done.samples;
+    for (std::size_t i = first; i < first + done.tiles; ++i)
+        for (std::size_t set = 0; set < 2; ++set) have_[2 * work[i].tile + set] += work[i].sample_count[set];
+    return done.tiles;
+}
+
+}  // namespace triad
