@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,9 +39,9 @@ class Running {
     }
     void interrupt() { send(SIGINT); }
     void send(int signal) { ::kill(child_, signal); }
-    int wait() {
+    int wait(rusage* usage = nullptr) {
         int status = 0;
-        ::waitpid(child_, &status, 0);
+        ::wait4(child_, &status, 0, usage);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;  // -1: ended by a signal
     }
     const std::string& said() const { return said_; }

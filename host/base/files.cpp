@@ -44,7 +44,21 @@ InputFile::InputFile(const fs::path& path) : path_(path) {
     std::swap(descriptor_, file.fd);
 }
 
-InputFile::~InputFile() { ::close(descriptor_); }
+InputFile::~InputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+InputFile::InputFile(InputFile&& other) noexcept { *this = std::move(other); }
+
+InputFile& InputFile::operator=(InputFile&& other) noexcept {
+    std::swap(path_, other.path_), std::swap(descriptor_, other.descriptor_), std::swap(size_, other.size_);
+    return *this;
+}
+
+void InputFile::seek(std::uint64_t at) {
+    if (::lseek(descriptor_, off_t(at), SEEK_SET) < 0)
+        throw Error(Exit::scene, "Cannot read " + path_.string() + ": " + reason() + ".");
+}
 
 void InputFile::read(void* to, std::size_t bytes) {
     std::size_t done = 0;

@@ -19,15 +19,17 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint
 void write_aside(const std::filesystem::path& path,
                  const std::function<void(const std::filesystem::path&)>& write);
 
-/// A regular file that is read from its beginning. Throws Error(scene) that names the path.
+/// A regular file. Movable. Throws Error(scene) that names the path.
 class InputFile {
   public:
     explicit InputFile(const std::filesystem::path& path);
     ~InputFile();
-    InputFile(const InputFile&) = delete;
-    InputFile& operator=(const InputFile&) = delete;
+    InputFile(InputFile&& other) noexcept;
+    InputFile& operator=(InputFile&& other) noexcept;
 
     std::uint64_t size() const { return size_; }
+    /// The next bytes are those from here on.
+    void seek(std::uint64_t at);
     /// The next bytes; it is an error when they are not there.
     void read(void* to, std::size_t bytes);
 

@@ -96,6 +96,15 @@ SampleRange parse_range(const std::string& option, const std::string& value) {
     return {*begin, *end};
 }
 
+std::array<unsigned, 2> parse_share(const std::string& option, const std::string& value) {
+    const std::string_view of = std::string_view(value).substr(value.find(':') + 1);
+    const auto slash = of.find('/');
+    const auto i = number<unsigned>(of.substr(0, slash)),
+               k = slash == of.npos ? std::nullopt : number<unsigned>(of.substr(slash + 1));
+    if (!i || !k || *i >= *k) bad(option, value, "share:I/K with I from 0 and below K, like share:0/4");
+    return {*i, *k};
+}
+
 std::vector<double> parse_numbers(const std::string& option, const std::string& value, std::size_t count) {
     std::vector<double> numbers;
     for (std::string_view rest = value;;) {

@@ -40,6 +40,8 @@ CLI::Validator number_within(double lo, double hi);
 uvec2 parse_size(const std::string& option, const std::string& value);
 /// "A:B", half-open, A < B.
 SampleRange parse_range(const std::string& option, const std::string& value);
+/// "share:I/K", I from 0 and below K.
+std::array<unsigned, 2> parse_share(const std::string& option, const std::string& value);
 /// Exactly `count` finite numbers with commas between.
 std::vector<double> parse_numbers(const std::string& option, const std::string& value, std::size_t count);
 /// "#RRGGBB" in sRGB, returned linear.

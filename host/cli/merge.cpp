@@ -19,31 +19,20 @@ struct MergeOptions {
 };
 
 /// Pictures are no films; one that was made for a panel is refused for that.
-Film load_part(const std::string& path) {
-    try {
-        return load_film(path);
-    } catch (const Error&) {
-        if (is_picture(path)) refuse_for_panel(path, read_picture(path).metadata, "merge");
-        throw;
-    }
+void require_film(const std::string& path) {
+    if (!is_film(path) && is_picture(path)) refuse_for_panel(path, read_picture(path).metadata, "merge");
 }
 
 Exit run(const MergeOptions& o) {
     check_writable(o.output);
-    // One part at a time: two films are in memory, however many parts there are.
-    Film whole = load_part(o.parts.front());
-    for (std::size_t i = 1; i < o.parts.size(); ++i) {
-        try {
-            const Film pair[] = {std::move(whole), load_part(o.parts[i])};
-            whole = merge(pair);
-        } catch (const Error& error) {
-            throw Error(error.exit(), o.parts[i] + ": " + error.what());
-        }
-    }
-    save_film(o.output, whole);
-    const std::uint64_t end = o.expected_spp ? o.expected_spp : whole.ranges.back().end;
+    for (const std::string& part : o.parts) require_film(part);
+    const MergedFilm merged = merge_films({o.parts.begin(), o.parts.end()}, o.output);
+    const Film& whole = merged.film;
+    const std::uint64_t end = o.expected_spp         ? o.expected_spp
+                              : whole.ranges.empty() ? 0
+                                                     : whole.ranges.back().end;
     const std::vector<SampleRange> missing = holes(whole, end);
-    inform(o.output + ": " + spp_text(whole.sample_numbers().mean) + " samples per pixel from " +
+    inform(o.output + ": " + spp_text(double(whole.sample_count())) + " samples per pixel from " +
            std::to_string(o.parts.size()) + " films");
     if (!o.json.empty()) {
         Json gaps = Json::array();
@@ -51,8 +40,8 @@ Exit run(const MergeOptions& o) {
         write_report(o.json, "merge", nullptr,
                      {{{"film", o.output},
                        {"parts", o.parts.size()},
-                       {"spp", spp_json(whole.sample_numbers())},
-                       {"relmse", estimated_relmse(whole)},
+                       {"spp", whole.sample_count()},
+                       {"relmse", merged.relmse},
                        {"holes", gaps}}});
     }
     if (missing.empty()) return Exit::done;

@@ -120,8 +120,15 @@ void declare_sampler(CLI::App& command, RenderRequest& o) {
         command, "--sampler", "NAME",
         "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
         {{"sobol", false}, {"independent", true}}, o.independent);
-    add_parsed(command, "--samples", "A:B", "Only this half-open range of sample indices, for triad merge",
-               [&o](const std::string& v) { o.samples = parse_range("--samples", v); });
+    add_parsed(command, "--samples", "A:B|share:I/K",
+               "Only this half-open range of sample indices, or the I-th (from 0) of K equal parts of --spp, "
+               "for triad merge",
+               [&o](const std::string& v) {
+                   if (v.starts_with("share:"))
+                       o.share = parse_share("--samples", v);
+                   else
+                       o.samples = parse_range("--samples", v);
+               });
 }
 
 void declare_picture(CLI::App& command, RenderRequest& o) {

@@ -89,6 +89,15 @@ Film load_film_header(const std::filesystem::path& path);
 /// Whether the file begins as films do.
 bool is_film(const std::filesystem::path& path);
 
+/// A film that was joined into a file.
+struct MergedFilm {
+    Film film;           ///< without arrays
+    double relmse = -1;  ///< as estimated_relmse()
+};
+/// merge() of film files into one, in memory for a few rows of them. Throws Error(scene) or
+/// Error(incomplete), with the names of the parts that do not fit, and leaves `output` as it was.
+MergedFilm merge_films(const std::vector<std::filesystem::path>& parts, const std::filesystem::path& output);
+
 /// What is whole of a damaged film.
 struct SalvagedFilm {
     Film film;  ///< with zeros where rows are lost; its progress says which samples these want

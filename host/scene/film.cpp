@@ -31,32 +31,42 @@ void require_same_picture(const Film& a, const Film& b, const std::string& what)
 
 namespace {
 
-/// Modulo 2^64: the quantum leaves room for every sum that fits, and order must not matter for those that do
-/// not.
-void add(std::vector<std::int64_t>& sums, const std::vector<std::int64_t>& more) {
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] = std::int64_t(std::uint64_t(sums[i]) + std::uint64_t(more[i]));
-}
+/// A range, and the place of its film among the parts.
+struct PartRange {
+    SampleRange range;
+    std::size_t part;
+};
 
 /// The union of disjoint ranges: sorted, touching ones joined. Throws Error(incomplete) where two overlap.
-std::vector<SampleRange> join(std::vector<SampleRange> ranges) {
-    std::sort(ranges.begin(), ranges.end(), [](const auto& a, const auto& b) { return a.begin < b.begin; });
+std::vector<SampleRange> join(std::vector<PartRange> ranges, std::span<const std::string> names) {
+    std::sort(ranges.begin(), ranges.end(),
+              [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
+    const auto name = [&](const PartRange& of) { return names.empty() ? "another" : names[of.part]; };
     std::vector<SampleRange> joined;
-    for (const SampleRange& range : ranges) {
+    const PartRange* furthest = nullptr;
+    for (const PartRange& next : ranges) {
+        const SampleRange& range = next.range;
         if (joined.empty() || range.begin > joined.back().end) {
             joined.push_back(range);
         } else if (range.begin == joined.back().end) {
             joined.back().end = range.end;
         } else {
-            const SampleRange twice{range.begin, std::min(range.end, joined.back().end)};
-            throw Error(Exit::incomplete,
-                        "The films cannot be merged: samples " + text(twice) + " are in two of them.");
+            const SampleRange twice{range.begin, std::min(range.end, furthest->range.end)};
+            throw Error(Exit::incomplete, "The films cannot be merged: samples " + text(twice) + " are in " +
+                                              (names.empty() ? "one" : name(*furthest)) + " and in " +
+                                              name(next) + ".");
         }
+        furthest = &next;
     }
     return joined;
 }
 
 }  // namespace
+
+void add_sums(std::span<std::int64_t> sums, std::span<const std::int64_t> more) {
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        sums[i] = std::int64_t(std::uint64_t(sums[i]) + std::uint64_t(more[i]));
+}
 
 std::uint64_t Film::sample_count() const {
     std::uint64_t count = 0;
@@ -79,35 +89,52 @@ SampleNumbers Film::sample_numbers() const {
     return n;
 }
 
-Film merge(std::span<const Film> parts) {
+void refuse_uneven(const std::string& name) {
+    throw Error(
+        Exit::scene,
+        "The films cannot be merged: the pixels of " + name +
+            " hold different numbers of samples (it was sampled adaptively, or stopped within a sample). "
+            "Render parts of a picture with --samples, or with --spp and --adaptive off.");
+}
+
+Film merged_header(std::span<const Film> parts, std::span<const std::string> names) {
     if (parts.empty()) throw Error(Exit::usage, "There is nothing to merge: name at least one film.");
-    Film whole = parts[0];
-    for (const Film& part : parts)
-        if (parts.size() > 1 && !part.is_even())
-            throw Error(
-                Exit::scene,
-                "The films cannot be merged: the pixels of one hold different numbers of samples (it was "
-                "sampled adaptively, or --time ended it within a sample). Render parts of a picture with "
-                "--samples, or with --spp and --adaptive off.");
-    std::vector<SampleRange> ranges = whole.ranges;
-    for (const Film& part : parts.subspan(1)) {
-        require_same_picture(whole, part);
-        ranges.insert(ranges.end(), part.ranges.begin(), part.ranges.end());
+    Film whole;
+    whole.full_width = parts[0].full_width, whole.full_height = parts[0].full_height;
+    whole.x = parts[0].x, whole.y = parts[0].y, whole.width = parts[0].width, whole.height = parts[0].height;
+    whole.bins_x = parts[0].bins_x, whole.bins_y = parts[0].bins_y;
+    whole.quanta_log2 = parts[0].quanta_log2;
+    whole.scene = parts[0].scene, whole.settings = parts[0].settings;
+    whole.settings_text = parts[0].settings_text;
+    if (parts.size() == 1) whole.progress = parts[0].progress;  // what one of several had to do is nobody's
+    std::vector<PartRange> ranges;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        require_same_picture(whole, parts[i],
+                             names.empty() ? "The films cannot be merged"
+                                           : names[i] + " and " + names[0] + " cannot be merged");
+        for (const SampleRange& range : parts[i].ranges) ranges.push_back({range, i});
+        for (std::size_t c = 0; c < whole.counters.size(); ++c) whole.counters[c] += parts[i].counters[c];
+        whole.devices.insert(whole.devices.end(), parts[i].devices.begin(), parts[i].devices.end());
     }
-    whole.ranges = join(std::move(ranges));
+    whole.ranges = join(std::move(ranges), names);
     if (whole.sample_count() > std::numeric_limits<std::uint32_t>::max())
         throw Error(Exit::scene,
                     "The films cannot be merged: together they have more than 2^32 - 1 samples per pixel.");
-    if (parts.size() > 1) whole.progress.reset();  // what a part had still to do is no matter of the whole
-    for (const Film& part : parts.subspan(1)) {
-        add(whole.sums, part.sums);
-        add(whole.half_sums, part.half_sums);
-        for (std::size_t p = 0; p < whole.samples.size(); ++p) whole.samples[p] += part.samples[p];
-        for (std::size_t c = 0; c < whole.counters.size(); ++c) whole.counters[c] += part.counters[c];
-        whole.devices.insert(whole.devices.end(), part.devices.begin(), part.devices.end());
-    }
     std::sort(whole.devices.begin(), whole.devices.end());
     whole.devices.erase(std::unique(whole.devices.begin(), whole.devices.end()), whole.devices.end());
+    return whole;
+}
+
+Film merge(std::span<const Film> parts) {
+    Film whole = merged_header(parts);
+    whole.sums = parts[0].sums, whole.half_sums = parts[0].half_sums, whole.samples = parts[0].samples;
+    for (const Film& part : parts)
+        if (parts.size() > 1 && !part.is_even()) refuse_uneven("one");
+    for (const Film& part : parts.subspan(1)) {
+        add_sums(whole.sums, part.sums);
+        add_sums(whole.half_sums, part.half_sums);
+        for (std::size_t p = 0; p < whole.samples.size(); ++p) whole.samples[p] += part.samples[p];
+    }
     return whole;
 }
 

@@ -72,6 +72,14 @@ Film merge(std::span<const Film> parts);
 void require_same_picture(const Film& a, const Film& b,
                           const std::string& what = "The films cannot be merged");
 
+/// merge() without arrays, of films without arrays. `names`: of the parts, for sentences.
+Film merged_header(std::span<const Film> parts, std::span<const std::string> names = {});
+/// Throws the Error(scene) of a part whose pixels hold different numbers of samples.
+[[noreturn]] void refuse_uneven(const std::string& name);
+/// Modulo 2^64: the quantum leaves room for every sum that fits, and order must not matter for those that do
+/// not.
+void add_sums(std::span<std::int64_t> sums, std::span<const std::int64_t> more);
+
 /// What is missing in [0, end).
 std::vector<SampleRange> holes(const Film& film, std::uint64_t end);
 

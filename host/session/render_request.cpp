@@ -52,7 +52,11 @@ void complete(RenderRequest& o) {
         std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& path) { return is_exr(path); });
     if (!o.aovs.empty() && !exr)
         throw Error(Exit::usage, "--aov needs an .exr output to put the layers in; add -o FILE.exr.");
-    if (o.samples && (o.spp || o.error || o.time || o.adaptive.value_or(false)))
+    if (o.share && (!o.spp || o.error || o.time || o.adaptive.value_or(false)))
+        throw Error(
+            Exit::usage,
+            "--samples share:I/K is a part of --spp N: give that, and not --error, --time or --adaptive on.");
+    if (!o.share && o.samples && (o.spp || o.error || o.time || o.adaptive.value_or(false)))
         throw Error(
             Exit::usage,
             "--samples names exactly what is rendered: it cannot be combined with --spp, --error, --time or "
@@ -60,6 +64,14 @@ void complete(RenderRequest& o) {
     o.style.reconstruction = o.reconstruct.make();
     check_format_for(o.style.reconstruction, o.outputs);
     const std::uint64_t bins = o.style.reconstruction.bins_x * o.style.reconstruction.bins_y;
+    if (o.share) {
+        const auto [i, k] = *o.share;
+        const std::uint64_t turns = whole_bins(*o.spp, unsigned(bins)) / bins;
+        o.samples = SampleRange{turns * i / k * bins, turns * (i + 1) / k * bins};
+        if (o.samples->begin == o.samples->end)
+            throw Error(Exit::usage, "--samples share:" + std::to_string(i) + "/" + std::to_string(k) +
+                                         " has no samples of --spp " + std::to_string(*o.spp) + ".");
+    }
     if (o.samples && (o.samples->begin % bins != 0 || o.samples->end % bins != 0))
         throw Error(Exit::usage, "--samples: with " + std::to_string(bins) +
                                      " bins per pixel, ranges begin and end at multiples of " +

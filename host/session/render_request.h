@@ -35,6 +35,7 @@ struct RenderRequest {
     std::optional<double> error, time;
     std::optional<bool> adaptive;
     std::optional<SampleRange> samples;
+    std::optional<std::array<unsigned, 2>> share;  ///< the I-th (from 0) of K equal parts of spp
     std::uint32_t seed = 0;
     unsigned max_depth = 0;
     double roulette = RenderSettings{}.roulette;

@@ -31,8 +31,8 @@ float value(const Picture& picture, const std::string& channel, unsigned x, unsi
 }  // namespace
 
 TEST(RenderCommand, three_uneven_ranges_in_any_order_give_the_bytes_of_one_run) {
-    const TemporaryFolder folder;
     for (const std::string bins : {"1x1", "2x2"}) {
+        const TemporaryFolder folder;
         const std::string render = "render --size 40x24 --bins " + bins + " --film " + (folder / "").string();
         expect_done(render + "whole --samples 0:24");
         expect_done(render + "a --samples 0:4");
@@ -57,6 +57,41 @@ TEST(RenderCommand, an_incomplete_merge_names_the_samples_that_are_missing) {
     EXPECT_EQ(merged.exit, 6) << merged.output;
     EXPECT_NE(merged.output.find("--samples 2:5 --samples 8:9"), std::string::npos) << merged.output;
     EXPECT_TRUE(fs::exists(folder / "m"));
+}
+
+TEST(RenderCommand, shares_of_a_render_add_up_to_it) {
+    const TemporaryFolder folder;
+    const std::string render = "render --size 40x24 --bins 2x1 --spp 13 --film " + (folder / "").string();
+    expect_done(render + "whole");
+    std::string parts;
+    for (const std::string share : {"0/3", "1/3", "2/3"}) {
+        parts += " part" + share.substr(0, 1);
+        expect_done(render + "part" + share.substr(0, 1) + " --samples share:" + share);
+    }
+    const Outcome merged =
+        run_triad("merge" + parts + " -o m --expect-spp 14", "cd '" + (folder / "").string() + "';");
+    EXPECT_EQ(merged.exit, 0) << merged.output;
+    EXPECT_TRUE(bytes_of(folder / "m") == bytes_of(folder / "whole"));
+    expect_done(render + "none --samples share:0/9", 1);  // fewer turns of the bins than shares
+    expect_done(render + "none --samples share:3/3", 1);
+    expect_done("render --size 8x8 --samples share:0/2", 1);
+}
+
+TEST(RenderCommand, films_are_merged_in_memory_for_a_few_rows) {
+    const TemporaryFolder folder;
+    const std::string render = "render --size 1024x1024 --bins 2x2 --film " + (folder / "").string();
+    expect_done(render + "a --samples 0:4");
+    expect_done(render + "b --samples 4:8");
+    ASSERT_GT(fs::file_size(folder / "a"), 150u << 20);
+    const auto most_memory = [&](const std::string& arguments) {
+        Running merging(arguments, "cd '" + (folder / "").string() + "';");
+        rusage usage{};
+        EXPECT_EQ(merging.wait(&usage), 0);
+        return usage.ru_maxrss;  // KiB
+    };
+    const long alone = most_memory("--version");
+    EXPECT_LT(most_memory("merge a b -o m -q") - alone, 32 << 10);
+    EXPECT_EQ(load_film(folder / "m").samples[0], 8u);
 }
 
 TEST(RenderCommand, an_interrupt_finishes_the_pass_and_saves) {

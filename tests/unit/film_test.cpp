@@ -321,6 +321,70 @@ TEST(FilmFile, absurd_sizes_are_refused_before_memory_is_asked_for) {
     expect_contains(sentence_of(Exit::scene, [&] { load_film(folder / "huge.film"); }), "larger than it is");
 }
 
+namespace {
+
+/// A film of three rows of tiles whose pixels have errors, as synthetic().
+Film tall_synthetic(SampleRange range) {
+    Film film = synthetic(range);
+    const std::vector<std::int64_t> sums = film.sums, halves = film.half_sums;
+    film.full_height = 24, film.height = 20;
+    for (std::size_t i = sums.size(); i < film.pixels() * 4; ++i)
+        film.sums.push_back(sums[i % sums.size()] * std::int64_t(1 + i % 5));
+    for (std::size_t i = halves.size(); i < film.pixels() * 3; ++i)
+        film.half_sums.push_back(halves[i % halves.size()] * std::int64_t(1 + i % 3));
+    film.samples.assign(film.pixels(), film.samples[0]);
+    return film;
+}
+
+}  // namespace
+
+TEST(FilmMerge, of_files_gives_the_bytes_and_the_error_of_a_merge_in_memory) {
+    const TemporaryFolder folder;
+    for (const unsigned many : {3u, 250u}) {  // more than are kept open
+        std::vector<Film> films;
+        std::vector<std::filesystem::path> parts;
+        for (unsigned i = 0; i < many; ++i) {
+            films.push_back(tall_synthetic({3 * ((7 * i) % many), 3 * ((7 * i) % many) + 3}));
+            parts.push_back(folder / (std::to_string(i) + ".film"));
+            save_film(parts.back(), films.back());
+        }
+        const MergedFilm merged = merge_films(parts, folder / "merged.film");
+        const Film whole = merge(films);
+        EXPECT_EQ(read_file(folder / "merged.film"), bytes_of(whole, folder));
+        EXPECT_EQ(merged.film.ranges, (std::vector<SampleRange>{{0, 3 * many}}));
+        EXPECT_EQ(merged.relmse, estimated_relmse(whole));
+        EXPECT_GT(merged.relmse, 0);
+    }
+}
+
+TEST(FilmMerge, names_what_does_not_fit_and_keeps_the_older_file) {
+    const TemporaryFolder folder;
+    const auto merging = [&](Exit exit, std::initializer_list<const char*> names) {
+        std::vector<std::filesystem::path> parts;
+        for (const char* name : names) parts.push_back(folder / name);
+        return sentence_of(exit, [&] { merge_films(parts, folder / "m.film"); });
+    };
+    save_film(folder / "m.film", synthetic({0, 1}));
+    const auto before = read_file(folder / "m.film");
+    Film stranger = tall_synthetic({9, 12}), uneven = tall_synthetic({9, 12});
+    stranger.scene = "another", uneven.samples.back() = 5;
+    save_film(folder / "a", tall_synthetic({0, 4}));
+    save_film(folder / "b", tall_synthetic({4, 9}));
+    save_film(folder / "c", tall_synthetic({7, 12}));
+    save_film(folder / "stranger", stranger);
+    save_film(folder / "uneven", uneven);
+    auto bytes = read_file(folder / "b");
+    bytes[bytes.size() / 2] ^= 1;
+    write_file(folder / "damaged", std::string(bytes.begin(), bytes.end()));
+    const std::string twice = merging(Exit::incomplete, {"a", "b", "c"});
+    expect_contains(twice, "7:9 are in " + (folder / "b").string() + " and in " + (folder / "c").string());
+    expect_contains(merging(Exit::scene, {"a", "b", "stranger"}), (folder / "stranger").string() + " and ");
+    expect_contains(merging(Exit::scene, {"a", "b", "uneven"}), (folder / "uneven").string());
+    expect_contains(merging(Exit::scene, {"a", "damaged"}), "rows 8 to 15");
+    expect_contains(merging(Exit::scene, {"a", "nothing"}), "nothing");
+    EXPECT_EQ(read_file(folder / "m.film"), before);
+}
+
 TEST(FilmFile, films_of_another_version_are_refused_and_named) {
     const TemporaryFolder folder;
     auto bytes = bytes_of(synthetic({0, 4}), folder);
