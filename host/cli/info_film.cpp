@@ -7,6 +7,8 @@
 #include "io/io.h"
 #include "kernels/types.h"
 #include "report/report.h"
+#include "scene/film_sets.h"
+#include "scene/sample_shares.h"
 
 namespace triad {
 namespace {
@@ -16,6 +18,25 @@ std::string text_of(const std::vector<SampleRange>& ranges) {
     for (const SampleRange& range : ranges)
         text += (text.empty() ? "" : " ") + std::to_string(range.begin) + ":" + std::to_string(range.end);
     return text.empty() ? "none in every pixel" : text;
+}
+
+/// Every device of the film, and which share of its samples it took; negative: not known.
+std::vector<std::pair<std::string, double>> device_shares(const Film& film) {
+    std::vector<std::pair<std::string, double>> shares;
+    for (const std::string& device : film.devices)
+        shares.emplace_back(device, film.devices.size() > 1 ? -1 : 1);
+    if (film.shares.empty()) return shares;
+    const std::vector<std::uint32_t> pixels = set_pixels(film.width, film.height);
+    const SampleShares taken = SampleShares::unpacked(film.shares, pixels.size());
+    std::vector<double> samples(shares.size());
+    double all = 0;
+    for (std::size_t set = 0; set < pixels.size(); ++set)
+        for (const auto& [device, n] : taken.of(set)) {
+            all += double(n) * pixels[set];
+            if (device < samples.size()) samples[device] += double(n) * pixels[set];
+        }
+    for (std::size_t i = 0; i < shares.size() && all > 0; ++i) shares[i].second = samples[i] / all;
+    return shares;
 }
 
 /// complete, ended (by --time) or stopped (before its goal, or damaged).
@@ -44,7 +65,9 @@ void print(const std::string& path, const SalvagedFilm& found, const SampleNumbe
                 static_cast<unsigned long long>(film.counters[COUNTER_NOT_FINITE]),
                 static_cast<unsigned long long>(film.counters[COUNTER_SATURATED]),
                 static_cast<unsigned long long>(film.counters[COUNTER_TRUNCATED]));
-    for (const std::string& device : film.devices) std::printf("device      %s\n", device.c_str());
+    for (const auto& [device, share] : device_shares(film))
+        std::printf("device      %s%s\n", device.c_str(),
+                    share < 0 ? "" : format(", %.1f %% of the samples", 100 * share).c_str());
     std::printf("scene       %s\n", film.scene.c_str());
     std::printf("settings    %s %s\n", film.settings.c_str(), film.settings_text.c_str());
     std::printf("state       %s", state_of(film).c_str());
@@ -57,7 +80,9 @@ void print(const std::string& path, const SalvagedFilm& found, const SampleNumbe
 
 Json row_of(const std::string& path, const SalvagedFilm& found, const SampleNumbers& numbers, double relmse) {
     const Film& film = found.film;
-    Json ranges = Json::array(), lost = Json::array();
+    Json ranges = Json::array(), lost = Json::array(), shares = Json::array();
+    for (const auto& [device, share] : device_shares(film))
+        shares.push_back(share < 0 ? Json() : Json(share));
     for (const SampleRange& range : film.ranges) ranges.push_back({range.begin, range.end});
     for (const auto& [begin, end] : found.lost) lost.push_back({begin, end});
     return {{"film", path},
@@ -76,6 +101,7 @@ Json row_of(const std::string& path, const SalvagedFilm& found, const SampleNumb
             {"saturated", film.counters[COUNTER_SATURATED]},
             {"truncated", film.counters[COUNTER_TRUNCATED]},
             {"devices", film.devices},
+            {"device_shares", shares},
             {"scene_hash", film.scene},
             {"settings_hash", film.settings},
             {"settings", Json::parse(film.settings_text, nullptr, false)},

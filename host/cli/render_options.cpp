@@ -284,8 +284,12 @@ void declare_output(CLI::App& command, RenderRequest& o) {
 }
 
 void declare_machine(CLI::App& command, RenderRequest& o) {
-    command.add_option("--device", o.device, "Number, cpu, gpu, or part of a name (see triad devices)")
-        ->type_name("SEL")
+    command
+        .add_option(
+            "--device", o.device,
+            "Number, cpu, gpu, or part of a name (see triad devices); several with commas between share "
+            "the picture, all is every one; SEL/N is a CPU in N parts")
+        ->type_name("SEL[/N],...|all")
         ->group(machine_group);
     command.add_option("--threads", o.threads, "Cores to use, here and on CPU devices (default 0: all)")
         ->type_name("N")

@@ -19,22 +19,33 @@ constexpr std::size_t default_local = 64;
 namespace opencl {
 namespace {
 
-/// The device, or the part of a CPU device that has `threads` compute units. Sets info.compute_units to what
-/// is used.
-cl_device_id restrict_to(unsigned threads, DeviceState& state) {
+/// The device, or the part of a CPU device that the settings ask for. Sets info.compute_units to what is
+/// used.
+cl_device_id restrict_to(const Device::Settings& settings, DeviceState& state) {
     DeviceInfo& info = state.core->info;
-    if (threads == 0 || threads >= info.compute_units || info.type != "cpu") return state.device;
-    const cl_device_partition_property by_counts[] = {CL_DEVICE_PARTITION_BY_COUNTS,
-                                                      static_cast<cl_device_partition_property>(threads),
-                                                      CL_DEVICE_PARTITION_BY_COUNTS_LIST_END, 0};
-    cl_device_id part = nullptr;
-    Where where{.sentence = "The driver cannot be held to " + std::to_string(threads) +
-                            " threads; leave --threads out."};
-    state.core->check("clCreateSubDevices", clCreateSubDevices(state.device, by_counts, 1, &part, nullptr),
+    const bool is_cpu = info.type == "cpu";
+    const unsigned all = info.compute_units,
+                   units = is_cpu && settings.threads > 0 ? std::min(settings.threads, all) : all;
+    if (settings.parts > 1 && (!is_cpu || settings.parts > units))
+        throw Error(
+            Exit::usage,
+            info.name + " cannot be taken in " + std::to_string(settings.parts) + " parts: " +
+                (is_cpu ? "it has " + std::to_string(units) + " compute units." : "only CPU devices can."));
+    if (units == all && settings.parts <= 1) return state.device;
+    std::vector<cl_device_partition_property> counts{CL_DEVICE_PARTITION_BY_COUNTS};
+    const auto end_of = [&](unsigned part) { return units * part / settings.parts; };
+    for (unsigned part = 0; part < settings.parts; ++part)
+        counts.push_back(static_cast<cl_device_partition_property>(end_of(part + 1) - end_of(part)));
+    counts.push_back(CL_DEVICE_PARTITION_BY_COUNTS_LIST_END), counts.push_back(0);
+    std::vector<cl_device_id> parts(settings.parts);
+    const Where where{.sentence = "The driver cannot be held to a part of its device; leave " +
+                                  std::string(settings.parts > 1 ? "/N" : "--threads") + " out."};
+    state.core->check("clCreateSubDevices",
+                      clCreateSubDevices(state.device, counts.data(), settings.parts, parts.data(), nullptr),
                       where);
     // Never released: PoCL 3.1 uses it in its own threads after the last queue, context and event are gone.
-    info.compute_units = threads;
-    return part;
+    info.compute_units = end_of(settings.part + 1) - end_of(settings.part);
+    return parts[settings.part];
 }
 
 }  // namespace
@@ -71,7 +82,7 @@ Device Device::open(const Settings& settings) {
     // PoCL keeps compiled kernels itself, and asking it for binaries compiles everything a second time.
     state->disk_cache = !opencl::is_pocl(found.info.platform);
     state->device = found.device;
-    state->device = opencl::restrict_to(settings.threads, *state);
+    state->device = opencl::restrict_to(settings, *state);
 
     const Peril peril(opencl::compiling_note(found.info, "opened the device"));
     cl_int code = CL_SUCCESS;

@@ -35,6 +35,7 @@ struct DeviceInfo {
     std::uint64_t memory = 0, max_allocation = 0, local_memory = 0;
     unsigned compute_units = 0, clock_mhz = 0;
     std::size_t max_work_group = 0;
+    std::string hardware;      ///< equal for drivers of one piece of hardware: "cpu", "pci 0000:01:00.0"
     bool host_memory = false;  ///< works in the memory of the host
     bool fp64 = false, images = false, correctly_rounded = false, denormals = false, int64_atomics = false;
     bool usable = false;
@@ -173,7 +174,8 @@ class Device {
     struct Settings {
         std::string selector;  ///< "", index, "cpu"/"gpu", or part of the name or platform (case ignored)
         unsigned threads = 0;  ///< CPU devices: compute units to use (0 = all)
-        bool profile = false;  ///< profiling queue; see times()
+        unsigned part = 0, parts = 1;  ///< CPU devices: the part-th (from 0) of so many equal parts of them
+        bool profile = false;          ///< profiling queue; see times()
         std::size_t largest_allocation = 0;  ///< at most so many bytes in one piece (0: what the device says)
     };
 

@@ -59,6 +59,32 @@ std::string why_unusable(cl_device_id device, const DeviceInfo& info) {
     return {};
 }
 
+/// The place on the PCI bus by the extensions of Khronos, NVIDIA and AMD; empty where none tells.
+std::string pci_place(cl_device_id device) {
+    struct {
+        cl_uint domain, bus, device, function;
+    } khronos{};
+    struct {
+        cl_uint type;
+        cl_uchar unused[17], bus, device, function;
+    } amd{};
+    constexpr cl_device_info khronos_info = 0x410F, nvidia_bus = 0x4008, nvidia_slot = 0x4009,
+                             amd_topology = 0x4037;
+    cl_uint bus = 0, slot = 0;
+    if (clGetDeviceInfo(device, khronos_info, sizeof khronos, &khronos, nullptr) == CL_SUCCESS) {
+        bus = khronos.bus, slot = khronos.device;
+    } else if (clGetDeviceInfo(device, nvidia_bus, sizeof bus, &bus, nullptr) == CL_SUCCESS &&
+               clGetDeviceInfo(device, nvidia_slot, sizeof slot, &slot, nullptr) == CL_SUCCESS) {
+        slot >>= 3;  // the rest is the function
+    } else if (clGetDeviceInfo(device, amd_topology, sizeof amd, &amd, nullptr) == CL_SUCCESS &&
+               amd.type == 1) {
+        bus = amd.bus, slot = amd.device;
+    } else {
+        return {};
+    }
+    return "pci " + std::to_string(bus) + ":" + std::to_string(slot);
+}
+
 DeviceInfo describe(cl_device_id device, const std::string& platform) {
     const auto text = [&](cl_device_info what) { return text_of(clGetDeviceInfo, device, what); };
     DeviceInfo info;
@@ -165,7 +191,11 @@ std::vector<Found> ask_drivers(std::vector<PlatformProblem>& problems) {
         }
         for (cl_device_id device : devices) {
             found.push_back({platform, device, describe(device, name)});
-            found.back().info.index = found.size() - 1;
+            DeviceInfo& info = found.back().info;
+            info.index = found.size() - 1;
+            // All CPU devices are drivers of the one machine's processors.
+            info.hardware = info.type == "cpu" ? "cpu" : pci_place(device);
+            if (info.hardware.empty()) info.hardware = "device " + std::to_string(info.index);
         }
     }
     return found;

@@ -64,6 +64,7 @@ Film film_of(const json& header, ProgressSizes& sizes, const Refuse& refuse) {
     film.settings = header.at("settings").get<std::string>();
     film.settings_text = header.at("settings_text").get<std::string>();
     film.devices = header.at("devices").get<std::vector<std::string>>();
+    if (header.contains("shares")) film.shares = header.at("shares").get<decltype(film.shares)>();
     if (header.contains("progress")) film.progress = progress_of(header.at("progress"), sizes, refuse);
     return film;
 }
@@ -83,6 +84,7 @@ std::string film_header(const Film& film) {
                    {"settings", film.settings},
                    {"settings_text", film.settings_text},
                    {"devices", film.devices}};
+    if (!film.shares.empty()) header["shares"] = film.shares;
     if (film.progress) header["progress"] = to_json(*film.progress);
     // Names of devices come from drivers: what is no UTF-8 is replaced.
     return header.dump(-1, ' ', false, json::error_handler_t::replace);

@@ -22,12 +22,17 @@ void FilmStore::restart(const PackedScene& packed, const RenderSettings& setting
     film_.settings = Hash().add(film_.settings_text).hex();
     film_.ranges.clear();
     film_.progress.reset();
+    film_.shares.clear();
 }
 
-void FilmStore::add_device(const DeviceInfo& device) {
-    const std::string words = device.name + ", " + device.driver;
+void FilmStore::add_device(const std::string& words) {
     const auto place = std::lower_bound(film_.devices.begin(), film_.devices.end(), words);
     if (place == film_.devices.end() || *place != words) film_.devices.insert(place, words);
+}
+
+std::uint32_t FilmStore::place_of(const DeviceInfo& device) const {
+    return std::uint32_t(std::lower_bound(film_.devices.begin(), film_.devices.end(), words_of(device)) -
+                         film_.devices.begin());
 }
 
 const Film& FilmStore::gather(const Tracers& tracers) {

@@ -2,6 +2,7 @@
 /// The film of a picture, on the host: what it is called, and what the tracers' parts add up to.
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,11 @@ class FilmStore {
 
     /// Begins again: the same picture with these settings (another seed).
     void restart(const PackedScene& packed, const RenderSettings& settings);
-    void add_device(const DeviceInfo& device);
+    void add_device(const DeviceInfo& device) { add_device(words_of(device)); }
+    void add_device(const std::string& words);
+    /// Its place among the film's devices, to which it was added.
+    std::uint32_t place_of(const DeviceInfo& device) const;
+    void set_shares(std::vector<std::uint32_t> shares) { film_.shares = std::move(shares); }
     void set_ranges(std::vector<SampleRange> ranges) { film_.ranges = std::move(ranges); }
     void set_progress(std::optional<FilmProgress> progress) { film_.progress = std::move(progress); }
     /// Reads the parts into the arrays, which are then what all tracers have found so far.
@@ -31,6 +36,8 @@ class FilmStore {
 
   private:
     Film film_;
+
+    static std::string words_of(const DeviceInfo& device) { return device.name + ", " + device.driver; }
 };
 
 }  // namespace triad

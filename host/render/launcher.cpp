@@ -1,6 +1,8 @@
 #include "render/launcher.h"
 
 #include <algorithm>
+#include <exception>
+#include <thread>
 
 #include "render/renderer_state.h"
 
@@ -17,32 +19,74 @@ std::uint64_t Launcher::samples_of(const dev::TileWork& w) const {
            std::uint64_t(w.sample_count[1]) * set_pixels_[2 * w.tile + 1];
 }
 
-Launcher::Launched Launcher::launch(const std::vector<dev::TileWork>& work, std::size_t first,
-                                    std::uint64_t first_sample, double seconds) {
-    Launched launched;
-    std::vector<std::uint64_t> shares;
+WorkShare Launcher::share_of(const std::vector<dev::TileWork>& work) const {
+    std::vector<std::uint64_t> sizes;
+    for (const dev::TileWork& w : work) sizes.push_back(samples_of(w));
+    std::vector<double> paces;
+    for (const auto& tracer : tracers_) paces.push_back(tracer->pace);
+    return {std::move(sizes), std::move(paces)};
+}
+
+/// Waits for it, and measures the pace.
+void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::TileWork>& work,
+                      std::uint64_t first_sample) {
+    Tracer& tracer = *tracers_[i];
+    std::uint64_t samples = 0;
+    for (std::size_t k = 0; k < piece.count; ++k) samples += samples_of(work[piece.first + k]);
     const auto start = RenderClock::now();
-    for (auto& tracer : tracers_) {
-        const std::size_t next = first + launched.tiles;
-        if (next == work.size()) break;
-        const double fit = tracer->pace * seconds;
-        const std::size_t most = tracer->pace > 0 ? tracer->most_tiles() : 16;
-        std::size_t n = 0;
-        std::uint64_t samples = 0;
-        while (next + n < work.size() && n < most && (n == 0 || tracer->pace == 0 || double(samples) < fit))
-            samples += samples_of(work[next + n++]);
-        tracer->trace(next, n, first_sample);
-        shares.push_back(samples);
-        launched.tiles += n, launched.samples += samples;
+    tracer.trace(piece.first, piece.count, first_sample);
+    tracer.finish();
+    const double took = seconds_since(start), rate = double(samples) / std::max(took, 1e-6);
+    const std::lock_guard lock(mutex_);
+    // Small launches are dominated by overhead and must not make the next ones smaller still.
+    tracer.pace = std::max(0.5 * (tracer.pace + rate), rate);
+    busy_[i] += took, samples_[i] += samples;
+}
+
+void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders) {
+    on_every_tracer([&](std::size_t i) {
+        for (;;) {
+            WorkPiece piece;
+            {
+                const std::lock_guard lock(mutex_);
+                if (orders.stop()) return;
+                share.set_pace(i, tracers_[i]->pace);
+                piece = share.take(i, orders.launch_seconds(), tracers_[i]->most_tiles());
+            }
+            if (piece.count == 0) return;
+            launch(i, piece, work, orders.first_sample);
+            const std::lock_guard lock(mutex_);
+            orders.done(i, piece);
+        }
+    });
+}
+
+void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std::uint64_t first_sample) {
+    std::vector<std::uint64_t> sizes;
+    for (const dev::TileWork& w : work) sizes.push_back(samples_of(w));
+    WorkShare share(std::move(sizes), {0});
+    while (!share.is_done()) {
+        share.set_pace(0, tracers_[i]->pace);  // which this thread alone changes
+        launch(i, share.take(0, launch_seconds, tracers_[i]->most_tiles()), work, first_sample);
     }
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-        Tracer& tracer = *tracers_[i];
-        tracer.finish();
-        const double rate = double(shares[i]) / std::max(seconds_since(start), 1e-6);
-        // Small launches are dominated by overhead and must not make the next ones smaller still.
-        tracer.pace = std::max(0.5 * (tracer.pace + rate), rate);
+}
+
+void Launcher::on_every_tracer(const std::function<void(std::size_t)>& work) {
+    if (tracers_.size() == 1) return work(0);
+    std::exception_ptr failed;
+    {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 0; i < tracers_.size(); ++i)
+            threads.emplace_back([&, i] {
+                try {
+                    work(i);
+                } catch (...) {
+                    const std::lock_guard lock(mutex_);
+                    if (!failed) failed = std::current_exception();
+                }
+            });
     }
-    return launched;
+    if (failed) std::rethrow_exception(failed);
 }
 
 }  // namespace triad

@@ -1,9 +1,12 @@
 #pragma once
 /// Launches of a list of work, on every tracer at once, that are neither long nor short.
 #include <cstdint>
+#include <functional>
+#include <mutex>
 #include <vector>
 
 #include "render/film_store.h"
+#include "render/work_share.h"
 
 namespace triad {
 
@@ -14,25 +17,49 @@ class Launcher {
   public:
     /// `set_pixels`: of each set of the film. Both must live as long.
     Launcher(Tracers& tracers, const std::vector<std::uint32_t>& set_pixels)
-        : tracers_(tracers), set_pixels_(set_pixels) {}
+        : tracers_(tracers), set_pixels_(set_pixels), busy_(tracers.size()), samples_(tracers.size()) {}
 
     /// Samples that all tracers trace in a second; 0: nothing was measured yet.
     double pace() const;
     /// Samples that a tile's work adds up to.
     std::uint64_t samples_of(const dev::TileWork& work) const;
+    /// Of this work, by the paces so far.
+    WorkShare share_of(const std::vector<dev::TileWork>& work) const;
 
-    struct Launched {
-        std::size_t tiles = 0;
-        std::uint64_t samples = 0;
+    /// What the callers are asked and told, one at a time.
+    struct Orders {
+        std::uint64_t first_sample = 0;          ///< from which those of the work are counted
+        std::function<double()> launch_seconds;  ///< of the next launch at most
+        std::function<bool()> stop;              ///< before each: leave the rest
+        std::function<void(std::size_t tracer, WorkPiece)> done;
     };
-    /// As much of work[first, ...), which the tracers were given, as takes so many seconds by the pace so
-    /// far; waits for it, and measures the pace. Samples are counted from `first_sample`.
-    Launched launch(const std::vector<dev::TileWork>& work, std::size_t first, std::uint64_t first_sample,
-                    double seconds);
+    /// Launches on every tracer, each in a thread of its own where there are several, until the work, which
+    /// the tracers were given, is done or orders.stop() says so; measures their paces. Throws what a tracer
+    /// threw.
+    void run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders);
+
+    /// One launch of one tracer after the other until a whole list is done, as run() does it.
+    void run_on(std::size_t tracer, const std::vector<dev::TileWork>& work, std::uint64_t first_sample);
+
+    /// Calls work(tracer) for every tracer, each in a thread of its own where there are several. Throws what
+    /// the first of them threw, when all have returned.
+    void on_every_tracer(const std::function<void(std::size_t)>& work);
+
+    void add_busy(std::size_t tracer, double seconds) { busy_[tracer] += seconds; }
+    /// Seconds that a tracer worked, and samples that it took, so far.
+    double busy_seconds(std::size_t tracer) const { return busy_[tracer]; }
+    std::uint64_t samples(std::size_t tracer) const { return samples_[tracer]; }
+    std::mutex& mutex() { return mutex_; }  ///< of what the threads of run() and on_every_tracer() share
 
   private:
     Tracers& tracers_;
     const std::vector<std::uint32_t>& set_pixels_;
+    std::vector<double> busy_;
+    std::vector<std::uint64_t> samples_;
+    std::mutex mutex_;
+
+    void launch(std::size_t tracer, WorkPiece piece, const std::vector<dev::TileWork>& work,
+                std::uint64_t first_sample);
 };
 
 }  // namespace triad

@@ -15,6 +15,8 @@ namespace {
 constexpr double launches_per_pass = 4;
 /// Samples of a pixel in one launch at most.
 constexpr double longest_run = 256;
+/// Between two reports within a pass, where one takes long.
+constexpr double seconds_between_reports = 1;
 /// Of the time that rendering takes: for writing the film meanwhile.
 constexpr double share_of_writes = 0.01;
 
@@ -39,7 +41,8 @@ RenderLoop::RenderLoop(Renderer::State& state, const RenderGoal& goal,
       pixels_(set_pixels(film().width, film().height)),
       launcher_(state.tracers, pixels_),
       have_(pixels_.size()),
-      next_kept_(goal.keep.seconds) {
+      next_kept_(goal.keep.seconds),
+      next_report_(seconds_between_reports) {
     std::uint64_t before = 0;
     for (const SampleRange& range : film().ranges) {
         if (range.begin == goal_.samples.begin) continue;
@@ -55,6 +58,7 @@ RenderLoop::RenderLoop(Renderer::State& state, const RenderGoal& goal,
 void RenderLoop::go_on() {
     for (std::size_t i = 0; i < have_.size(); ++i) total_ += std::uint64_t(have_[i]) * pixels_[i];
     total_at_start_ = total_;
+    if (film().devices.size() > 1 && s_.shares.sets() == 0) s_.shares = SampleShares(have_.size());
     schedule_.go_on_from(samples());
     if (s_.progress && s_.progress->samples.begin == goal_.samples.begin) go_on_from(*s_.progress);
     s_.progress.reset();
@@ -88,6 +92,7 @@ RenderResult RenderLoop::run() {
     const double rendered = seconds(), processor = processor_seconds() - processor_start;
     if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
     name_ranges();
+    name_shares();
     remember();
     const Stop stop = interrupted_ ? Stop::interrupt : cut_ ? Stop::time : schedule_.stop_reason();
     if (stop == Stop::interrupt || stop == Stop::time) {
@@ -96,7 +101,7 @@ RenderResult RenderLoop::run() {
     }
     s_.store.set_progress(s_.progress);
     const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
-    return {range, stop, rendered, processor, trend_.slope(), perceived_noise_};
+    return {range, stop, rendered, processor, trend_.slope(), perceived_noise_, devices()};
 }
 
 /// Sets wanted_; false: the goal is reached.
@@ -136,8 +141,13 @@ void RenderLoop::reach(const SetSamples& wanted) {
         const double fit = launcher_.pace() * launches_per_pass * launch_seconds / double(waiting);
         if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
         if (goal_.follow && seconds() >= next_estimate_) estimate(false);
-        interrupted_ = !report_(progress());
+        report();
     }
+}
+
+void RenderLoop::report() {
+    interrupted_ = !report_(progress()) || interrupted_;
+    next_report_ = seconds() + seconds_between_reports;
 }
 
 std::uint32_t RenderLoop::least() const {
@@ -150,6 +160,11 @@ std::uint32_t RenderLoop::least() const {
 /// The film says what every pixel has, while estimates are made of it or it is kept.
 void RenderLoop::name_ranges() {
     s_.store.set_ranges(with_before({goal_.samples.begin, goal_.samples.begin + least()}));
+}
+
+/// And which device took what of it.
+void RenderLoop::name_shares() {
+    if (s_.shares.sets() > 0) s_.store.set_shares(s_.shares.packed());
 }
 
 std::vector<SampleRange> RenderLoop::with_before(SampleRange range) const {
@@ -199,9 +214,10 @@ FilmProgress RenderLoop::film_progress() const {
 
 /// Between two launches.
 void RenderLoop::keep_when_due() {
-    if (!goal_.keep.write || seconds() < next_kept_) return;
+    if (!is_keeping_due()) return;
     const double began = seconds();
     name_ranges();
+    name_shares();
     gather();
     s_.store.set_progress(film_progress());
     goal_.keep.write(film());
@@ -223,6 +239,16 @@ void RenderLoop::keep_when_due() {
 void RenderLoop::remember() {
     s_.have = have_;
     for (std::uint32_t& n : s_.have) n += std::uint32_t(samples_before_);
+}
+
+std::vector<DeviceWork> RenderLoop::devices() const {
+    std::vector<DeviceWork> work;
+    for (std::size_t i = 0; i < s_.tracers.size(); ++i) {
+        const double busy = launcher_.busy_seconds(i);
+        work.push_back({&s_.tracers[i]->device().info(), launcher_.samples(i), busy,
+                        launching_ > 0 ? std::max(0.0, 1 - busy / launching_) : 0});
+    }
+    return work;
 }
 
 Progress RenderLoop::progress() const {

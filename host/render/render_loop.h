@@ -47,6 +47,8 @@ class RenderLoop {
     const RenderClock::time_point start_ = RenderClock::now();
     double next_estimate_ = 0.25;
     double next_kept_ = 0;
+    double next_report_ = 0;  ///< within a pass
+    double launching_ = 0;    ///< seconds in which the devices were to work
     bool told_of_slow_writes_ = false;
     double relmse_ = -1;
     std::optional<double> perceived_noise_;
@@ -62,21 +64,25 @@ class RenderLoop {
     void look();
     void estimate(bool decides);
     void name_ranges();
+    void name_shares();
     std::vector<SampleRange> with_before(SampleRange range) const;
     FilmProgress film_progress() const;
+    bool is_keeping_due() const { return goal_.keep.write && seconds() >= next_kept_; }
     void keep_when_due();
+    void report();
     void remember();
+    std::vector<DeviceWork> devices() const;
     Progress progress() const;
 
     // render_passes.cpp: what the devices do
     bool pass(const SetSamples& wanted, unsigned run);
     std::vector<dev::TileWork> work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const;
     bool pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut);
-    void trace_photons(std::uint64_t sample, double share);
+    void trace_photons(std::size_t tracer, std::uint64_t sample, double share);
     void make_classic_map();
     std::size_t scattered(std::size_t i) const;
-    std::size_t launch(const std::vector<dev::TileWork>& work, std::size_t first, std::uint32_t sample,
-                       bool may_be_cut);
+    void count(const std::vector<dev::TileWork>& work, WorkPiece piece);
+    void credit(const std::vector<dev::TileWork>& work, std::size_t tracer, WorkPiece piece);
 
     const Film& film() const { return s_.film(); }
     PhotonTracer& photons() const { return s_.tracers.front()->photons(); }

@@ -1,6 +1,7 @@
 /// The passes of a RenderLoop.
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 #include "render/render_loop.h"
@@ -10,6 +11,8 @@ namespace {
 
 /// Of the photons of a sample that is cut: fewer would be too noisy even for few tiles.
 constexpr double least_photon_share = 0.25;
+/// Of a pass with photons, for each device: the last one ends soon after the others.
+constexpr unsigned samples_to_share = 16;
 
 }  // namespace
 
@@ -18,6 +21,8 @@ constexpr double least_photon_share = 0.25;
 bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
     const auto bins = unsigned(film().bins());  // each gets as many samples, wherever a render is cut
     run = std::max(run / bins, 1u) * bins;
+    if (has_photons_per_sample() && s_.tracers.size() > 1)  // samples are what these share
+        run = std::max(run, samples_to_share * unsigned(s_.tracers.size()) * bins);
     // A film that is to go on holds no samples with a part of their photons.
     const bool may_be_cut = least() > 0 && schedule_.may_end_within_sample(samples(), seconds()) &&
                             !(goal_.keep.write && has_photons_per_sample());
@@ -30,12 +35,28 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
     const std::vector<dev::TileWork> work = work_towards(wanted, run, may_be_cut);
     if (has_photons_per_sample()) return pass_with_photons(work, may_be_cut);
     for (auto& tracer : s_.tracers) tracer->set_work(work);
-    std::size_t done = 0;
-    while (done < work.size() && !(may_be_cut && schedule_.time_is_up(samples(), seconds()))) {
-        done += launch(work, done, 0, may_be_cut);
+    WorkShare share = launcher_.share_of(work);
+    const auto time_is_up = [&] { return may_be_cut && schedule_.time_is_up(samples(), seconds()); };
+    while (!share.is_done() && !time_is_up()) {
+        bool has_launched = false;
+        const double began = seconds();
+        launcher_.run(share, work,
+                      {.first_sample = goal_.samples.begin,
+                       .launch_seconds =
+                           [&] {
+                               return may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds()))
+                                                 : launch_seconds;
+                           },
+                       .stop = [&] { return has_launched && (is_keeping_due() || time_is_up()); },
+                       .done =
+                           [&](std::size_t tracer, WorkPiece piece) {
+                               count(work, piece), credit(work, tracer, piece);
+                               has_launched = true;
+                           }});
+        launching_ += seconds() - began;
         keep_when_due();
     }
-    return done == work.size();
+    return share.is_done();
 }
 
 /// Up to `run` samples of every set that wants more. With photons, which are a sample's of the whole picture,
@@ -86,26 +107,54 @@ bool RenderLoop::pass_with_photons(std::vector<dev::TileWork> work, bool may_be_
     if (on_some_tiles) {
         std::vector<std::uint32_t> chosen(tiles_, 0);
         for (const dev::TileWork& w : work) chosen[w.tile] = 1;
-        photons().set_tiles(chosen);
+        for (auto& tracer : s_.tracers) tracer->photons().set_tiles(chosen);
     }
     for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = 1;
     for (auto& tracer : s_.tracers) tracer->set_work(work);
-    for (std::uint32_t i = 0; i < run; ++i) {
-        trace_photons(goal_.samples.begin + work.front().first_sample[0] + i, share);
-        for (std::size_t done = 0; done < work.size();) done += launch(work, done, i, may_be_cut);
+    const std::uint64_t first = goal_.samples.begin + work.front().first_sample[0];
+    const WorkPiece whole{0, work.size()};
+    for (std::uint32_t next = 0; next < run && !interrupted_;) {
+        bool has_begun = false;
+        std::vector<std::size_t> takers;  // of the samples, in their order
+        const double began = seconds();
+        // Every device takes whole samples: photons light a picture as a whole. A cut one is the first's.
+        launcher_.on_every_tracer([&](std::size_t tracer) {
+            for (;;) {
+                std::uint32_t i;
+                {
+                    const std::lock_guard lock(launcher_.mutex());
+                    if (seconds() >= next_report_ && least() > 0) report();
+                    if (next == run || (may_be_cut && tracer > 0) || interrupted_ ||
+                        (has_begun && is_keeping_due()))
+                        return;
+                    i = next++, has_begun = true;
+                    takers.push_back(tracer);
+                }
+                trace_photons(tracer, first + i, share);
+                launcher_.run_on(tracer, work, goal_.samples.begin + i);
+                const std::lock_guard lock(launcher_.mutex());
+                count(work, whole);
+            }
+        });
+        for (const std::size_t tracer : takers) credit(work, tracer, whole);
+        launching_ += seconds() - began;
         keep_when_due();
     }
-    if (on_some_tiles) photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
+    if (on_some_tiles)
+        for (auto& tracer : s_.tracers) tracer->photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
     cut_ = work.size() < all;
     return !cut_;
 }
 
-void RenderLoop::trace_photons(std::uint64_t sample, double share) {
+void RenderLoop::trace_photons(std::size_t i, std::uint64_t sample, double share) {
     const double began = seconds();
-    Tracer& tracer = *s_.tracers.front();
-    photons().trace(sample, std::uint64_t(std::ceil(share * double(photons().count()))), tracer.part());
+    Tracer& tracer = *s_.tracers[i];
+    PhotonTracer& photons = tracer.photons();
+    photons.trace(sample, std::uint64_t(std::ceil(share * double(photons.count()))), tracer.part());
     tracer.finish();
     const double took = seconds() - began;
+    const std::lock_guard lock(launcher_.mutex());
+    launcher_.add_busy(i, took);
     s_.photon_seconds += took;
     photon_seconds_ = took / share;
     schedule_.set_least_step(least_photon_share * photon_seconds_ * double(film().bins()));
@@ -114,7 +163,8 @@ void RenderLoop::trace_photons(std::uint64_t sample, double share) {
 /// Unless it was made before.
 void RenderLoop::make_classic_map() {
     const double began = seconds();
-    photons().make_classic_map(s_.tracers.front()->part());
+    launcher_.on_every_tracer(
+        [this](std::size_t i) { s_.tracers[i]->photons().make_classic_map(s_.tracers[i]->part()); });
     s_.photon_seconds += seconds() - began;
 }
 
@@ -126,17 +176,21 @@ std::size_t RenderLoop::scattered(std::size_t i) const {
     return i * step % tiles_;
 }
 
-/// As much of work[first, ...) as takes launch_seconds, or the time left, on every tracer at once;
-/// `sample` samples on. Returns how many tiles that were.
-std::size_t RenderLoop::launch(const std::vector<dev::TileWork>& work, std::size_t first,
-                               std::uint32_t sample, bool may_be_cut) {
-    const double time =
-        may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds())) : launch_seconds;
-    const Launcher::Launched done = launcher_.launch(work, first, goal_.samples.begin + sample, time);
-    total_ += done.samples;
-    for (std::size_t i = first; i < first + done.tiles; ++i)
+/// Samples that were taken.
+void RenderLoop::count(const std::vector<dev::TileWork>& work, WorkPiece piece) {
+    for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
+        total_ += launcher_.samples_of(work[i]);
         for (std::size_t set = 0; set < 2; ++set) have_[2 * work[i].tile + set] += work[i].sample_count[set];
-    return done.tiles;
+    }
+}
+
+/// The next samples of their sets, by this tracer.
+void RenderLoop::credit(const std::vector<dev::TileWork>& work, std::size_t tracer, WorkPiece piece) {
+    if (s_.shares.sets() == 0) return;
+    const std::uint32_t device = s_.store.place_of(s_.tracers[tracer]->device().info());
+    for (std::size_t i = piece.first; i < piece.first + piece.count; ++i)
+        for (std::size_t set = 0; set < 2; ++set)
+            s_.shares.add(2 * work[i].tile + set, device, work[i].sample_count[set]);
 }
 
 }  // namespace triad

@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -55,8 +56,13 @@ void require_same_settings(const Film& here, const Film& film) {
                                  (differences.empty() ? "" : ": " + differences) + ".");
 }
 
-DeviceScenes scene_on(Device& device, const Scene& scene, const RenderSettings& settings) {
-    return {std::make_shared<DeviceScene>(device, pack_for(scene, settings, {}, {format_of(device)}))};
+DeviceScenes scene_on(std::span<Device* const> devices, const Scene& scene, const RenderSettings& settings) {
+    BvhFormats formats;
+    for (const Device* device : devices) formats.insert(format_of(*device));
+    const auto packed = pack_for(scene, settings, {}, formats);
+    DeviceScenes scenes;
+    for (Device* device : devices) scenes.push_back(std::make_shared<DeviceScene>(*device, packed));
+    return scenes;
 }
 
 }  // namespace
@@ -70,18 +76,38 @@ Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, cons
     const auto start = RenderClock::now();
     for (const auto& scene : scenes) {
         assert(scene->shared() == packed);
-        if (!tracers.empty() && photons() > 0) break;
         tracers.push_back(std::make_unique<Tracer>(scene, settings, features, store.film()));
         store.add_device(scene->device().info());
     }
     compile_seconds = seconds_since(start);
 }
 
+void Renderer::State::go_on_with_devices_of(const Film& film) {
+    for (const std::string& words : film.devices) store.add_device(words);
+    const std::vector<std::string>& all = store.film().devices;
+    if (all.size() < 2) return;
+    std::vector<std::uint32_t> places;
+    for (const std::string& words : film.devices)
+        places.push_back(std::uint32_t(std::find(all.begin(), all.end(), words) - all.begin()));
+    if (!film.shares.empty()) {
+        shares = SampleShares::unpacked(film.shares, have.size());
+        shares.rename(places);
+        return;
+    }
+    shares = SampleShares(have.size());
+    const std::uint32_t device = places.size() == 1 ? places[0] : SampleShares::several;
+    for (std::size_t set = 0; set < have.size(); ++set) shares.add(set, device, have[set]);
+}
+
 Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
+                   const std::optional<Features>& features)
+    : Renderer(std::vector<Device*>{&device}, scene, settings, features) {}
+
+Renderer::Renderer(const std::vector<Device*>& devices, const Scene& scene, const RenderSettings& settings,
                    const std::optional<Features>& features) {
     check(settings);
     const auto start = RenderClock::now();
-    const DeviceScenes scenes = scene_on(device, scene, settings);
+    const DeviceScenes scenes = scene_on(devices, scene, settings);
     const double build_seconds = seconds_since(start);
     state_ = std::make_unique<State>(scenes, settings, features);
     state_->build_seconds = build_seconds;
@@ -101,6 +127,7 @@ void Renderer::restart(std::uint32_t seed) {
     for (auto& tracer : s.tracers) tracer->restart(seed);
     s.store.restart(*s.packed, s.settings);
     s.have.clear();
+    s.shares = SampleShares();
     s.progress.reset();
 }
 
@@ -116,12 +143,14 @@ void Renderer::resume(const Film& film) {
     empty.sums.clear(), empty.half_sums.clear(), empty.samples.clear(), empty.ranges.clear();
     require_same_settings(empty, film);
     require_same_picture(empty, film, "The film is not of this picture");
-    if (s.tracers.front()->photons().is_classic())  // the film's counters have its photons
-        s.tracers.front()->photons().make_classic_map(s.tracers.front()->part());
-    for (auto& tracer : s.tracers) tracer->part().clear();
+    for (auto& tracer : s.tracers) {
+        if (tracer->photons().is_classic()) tracer->photons().make_classic_map(tracer->part());
+        tracer->part().clear();  // of the map's counters as well: the film's are loaded
+    }
     s.tracers.front()->part().load(film);
     s.store.set_ranges(film.ranges);
     s.have = samples_of_sets(film);
+    s.go_on_with_devices_of(film);
     s.progress = film.progress;
 }
 

@@ -29,6 +29,14 @@ struct Progress {
     std::optional<double> perceived_noise;  ///< RenderGoal::perceived_noise, at the latest estimate
 };
 
+/// What a device did for a picture.
+struct DeviceWork {
+    const DeviceInfo* device = nullptr;
+    std::uint64_t samples = 0;  ///< of all pixels together
+    double busy_seconds = 0;    ///< of those in which devices were to work
+    double idle = 0;            ///< share of these in which it had nothing to do
+};
+
 struct RenderResult {
     SampleRange range;  ///< what every pixel was given; adaptive: Film::samples says what beyond that
     Stop stop = Stop::samples;
@@ -36,6 +44,7 @@ struct RenderResult {
     double processor_seconds = 0;           ///< that the process took of all processors meanwhile
     std::optional<double> trend;            ///< as in Progress, of the whole render
     std::optional<double> perceived_noise;  ///< of the whole render, where it was wanted
+    std::vector<DeviceWork> devices;
 };
 
 using DeviceScenes = std::vector<std::shared_ptr<const DeviceScene>>;
@@ -47,9 +56,11 @@ class Renderer {
     /// things out changes no bit.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
              const std::optional<Features>& features = {});
+    /// The same for several devices, which must live as long: they share the picture by their speed.
+    Renderer(const std::vector<Device*>& devices, const Scene& scene, const RenderSettings& settings,
+             const std::optional<Features>& features = {});
     /// A picture of what is packed and on its devices already: builds no tree and uploads no scene again. All
-    /// of `scenes` are of one PackedScene, for which holds_for(*scene, settings). Photons light a picture as
-    /// a whole: with them the first device alone works.
+    /// of `scenes` are of one PackedScene, for which holds_for(*scene, settings).
     Renderer(const DeviceScenes& scenes, const RenderSettings& settings,
              const std::optional<Features>& features = {});
     ~Renderer();

@@ -13,6 +13,18 @@ double mega_rays(const RenderOutcome& outcome) {
     return double(outcome.film.counters[COUNTER_RAYS]) / outcome.result.seconds / 1e6;
 }
 
+Json rows_of(const std::vector<DeviceWork>& devices) {
+    Json rows = Json::array();
+    for (const DeviceWork& work : devices)
+        rows.push_back({{"name", work.device->name},
+                        {"driver", work.device->driver},
+                        {"compute_units", work.device->compute_units},
+                        {"samples", work.samples},
+                        {"busy_s", work.busy_seconds},
+                        {"idle", work.idle}});
+    return rows;
+}
+
 }  // namespace
 
 Json render_row(RenderSession& session, const RenderOutcome& outcome) {
@@ -53,6 +65,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"driver", session.device().info().driver},
         {"format", name_of(format_of(session.device()))},
         {"path_driver", name_of(path_driver_of(session.device()))},
+        {"devices", rows_of(outcome.result.devices)},
         {"device_bytes", renderer.device_bytes()},
         {"film_bytes", film_bytes(film)},
         {"bins", {film.bins_x, film.bins_y}},

@@ -6,6 +6,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "scene/film_sets.h"
+#include "scene/sample_shares.h"
 
 namespace triad {
 namespace {
@@ -59,6 +61,26 @@ std::vector<SampleRange> join(std::vector<PartRange> ranges, std::span<const std
         furthest = &next;
     }
     return joined;
+}
+
+/// Every set has the samples of every part, in the order of the ranges.
+std::vector<std::uint32_t> shares_of(std::vector<PartRange> ranges, std::span<const Film> parts,
+                                     const Film& whole) {
+    std::sort(ranges.begin(), ranges.end(),
+              [](const auto& a, const auto& b) { return a.range.begin < b.range.begin; });
+    SampleShares shares(1);
+    for (const auto& [range, part] : ranges) {
+        const std::vector<std::string>& devices = parts[part].devices;
+        const auto place =
+            devices.size() == 1
+                ? std::uint32_t(std::find(whole.devices.begin(), whole.devices.end(), devices[0]) -
+                                whole.devices.begin())
+                : SampleShares::several;
+        shares.add(0, place, std::uint32_t(range.end - range.begin));
+    }
+    std::vector<std::uint32_t> packed = shares.packed();
+    packed[0] = std::uint32_t(2 * tile_count(whole.width, whole.height));
+    return packed;
 }
 
 }  // namespace
@@ -116,12 +138,16 @@ Film merged_header(std::span<const Film> parts, std::span<const std::string> nam
         for (std::size_t c = 0; c < whole.counters.size(); ++c) whole.counters[c] += parts[i].counters[c];
         whole.devices.insert(whole.devices.end(), parts[i].devices.begin(), parts[i].devices.end());
     }
-    whole.ranges = join(std::move(ranges), names);
+    whole.ranges = join(ranges, names);
     if (whole.sample_count() > std::numeric_limits<std::uint32_t>::max())
         throw Error(Exit::scene,
                     "The films cannot be merged: together they have more than 2^32 - 1 samples per pixel.");
     std::sort(whole.devices.begin(), whole.devices.end());
     whole.devices.erase(std::unique(whole.devices.begin(), whole.devices.end()), whole.devices.end());
+    if (parts.size() == 1)
+        whole.shares = parts[0].shares;
+    else if (whole.devices.size() > 1)
+        whole.shares = shares_of(std::move(ranges), parts, whole);
     return whole;
 }
 

@@ -53,7 +53,9 @@ struct Film {
     std::string scene, settings;              ///< hashes; films merge only when both are equal
     std::string settings_text;                ///< JSON of the settings that decide the picture
     std::vector<std::string> devices;         ///< sorted, unique
-    std::optional<FilmProgress> progress;     ///< of a film that is not complete
+    /// SampleShares::packed(), where there are several devices; empty: not known.
+    std::vector<std::uint32_t> shares;
+    std::optional<FilmProgress> progress;  ///< of a film that is not complete
 
     std::size_t pixels() const { return std::size_t(width) * height; }
     std::size_t bins() const { return std::size_t(bins_x) * bins_y; }

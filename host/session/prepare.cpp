@@ -1,5 +1,13 @@
 #include "session/prepare.h"
 
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
 #include "base/log.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
@@ -100,8 +108,10 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
     return settings;
 }
 
-Device open_device(const RenderRequest& o) {
-    Device device = Device::open({.selector = o.device, .threads = o.threads});
+namespace {
+
+Device opened(const RenderRequest& o, const Device::Settings& settings) {
+    Device device = Device::open(settings);
     Tuning wishes;
     if (o.format) wishes["format"] = name_of(*o.format);
     if (o.path_driver) wishes["path_driver"] = name_of(*o.path_driver);
@@ -109,6 +119,96 @@ Device open_device(const RenderRequest& o) {
     require_right(ensure_checked(device), device.info(), o.force);
     detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning));
     return device;
+}
+
+/// Of what was measured when the device was first used, which is the same work on every device.
+double tuned_seconds(Device& device) {
+    ensure_tuned(device);
+    double best = INFINITY;
+    for (const TuneTiming& timing : load_timings(device.info()).value_or(std::vector<TuneTiming>{}))
+        if (timing.search == tune_searches().front().name) best = std::min(best, timing.seconds);
+    return best;
+}
+
+/// Every piece of hardware once, by its fastest driver.
+std::vector<Device::Settings> all_devices(unsigned threads) {
+    const std::vector<DeviceInfo> devices = list_devices().devices;
+    std::vector<Device::Settings> chosen;
+    for (const std::vector<std::size_t>& drivers : hardware_of(devices)) {
+        std::size_t best = drivers.front();
+        double least = INFINITY;
+        for (const std::size_t i : drivers) {
+            if (drivers.size() == 1) break;
+            try {
+                Device device =
+                    Device::open({.selector = std::to_string(devices[i].index), .threads = threads});
+                const double seconds = tuned_seconds(device);
+                if (seconds < least) best = i, least = seconds;
+            } catch (const Error& error) {
+                warn(std::string(error.what()) + " It is left out.");
+            }
+        }
+        chosen.push_back({.selector = std::to_string(devices[best].index), .threads = threads});
+    }
+    return chosen;
+}
+
+/// SEL or SEL/N.
+std::vector<Device::Settings> parts_of(const std::string& text, unsigned threads) {
+    const std::size_t slash = text.rfind('/');
+    const std::string number = slash == std::string::npos ? "" : text.substr(slash + 1);
+    if (number.empty() || number.size() > 4 || number.find_first_not_of("0123456789") != std::string::npos)
+        return {{.selector = text, .threads = threads}};
+    const unsigned parts = unsigned(std::stoul(number));
+    if (parts == 0) throw Error(Exit::usage, "--device " + text + ": a device has at least one part.");
+    std::vector<Device::Settings> settings;
+    for (unsigned part = 0; part < parts; ++part)
+        settings.push_back(
+            {.selector = text.substr(0, slash), .threads = threads, .part = part, .parts = parts});
+    return settings;
+}
+
+std::vector<Device::Settings> named_devices(const std::string& text, unsigned threads) {
+    if (text == "all") return all_devices(threads);
+    std::vector<Device::Settings> settings;
+    std::istringstream words(text);
+    for (std::string word; std::getline(words, word, ',');)
+        for (const Device::Settings& each : parts_of(word, threads)) settings.push_back(each);
+    if (settings.empty()) settings.push_back({.threads = threads});
+    return settings;
+}
+
+}  // namespace
+
+Device open_device(const RenderRequest& o) { return opened(o, {.selector = o.device, .threads = o.threads}); }
+
+std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>& devices) {
+    std::map<std::string, std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (devices[i].usable) groups[devices[i].hardware].push_back(i);
+    std::vector<std::vector<std::size_t>> hardware;
+    for (auto& [name, drivers] : groups) hardware.push_back(std::move(drivers));
+    return hardware;
+}
+
+std::vector<Device> open_devices(const RenderRequest& o) {
+    const std::vector<Device::Settings> wanted = named_devices(o.device, o.threads);
+    std::vector<Device> devices;
+    std::exception_ptr failed;
+    for (const Device::Settings& settings : wanted) {
+        try {
+            devices.push_back(opened(o, settings));
+        } catch (const Error& error) {
+            if (wanted.size() == 1 || error.exit() == Exit::usage) throw;
+            failed = std::current_exception();
+            warn(std::string(error.what()) + " It is left out.");
+        }
+    }
+    if (devices.empty()) {
+        if (failed) std::rethrow_exception(failed);
+        throw Error(Exit::device, "There is no usable OpenCL device (triad devices says why).");
+    }
+    return devices;
 }
 
 }  // namespace triad

@@ -1,5 +1,8 @@
 #pragma once
 /// From the options of `triad render` to what a renderer needs: scene, settings, device.
+#include <cstddef>
+#include <vector>
+
 #include "device/device.h"
 #include "pack/settings.h"
 #include "scene/scene.h"
@@ -20,5 +23,12 @@ RenderSettings settings_of(const RenderRequest& options, const Scene& scene);
 /// The device of --device and --threads, tuned, and checked unless it was before. Throws Error(device) when
 /// it computes wrong answers and --force is not given.
 Device open_device(const RenderRequest& options);
+
+/// Those of --device SEL[/N][,SEL[/N]...] or all, at least one. Of several, one that cannot be opened or
+/// computes wrong answers is left out with a warning.
+std::vector<Device> open_devices(const RenderRequest& options);
+
+/// Places of usable devices by the hardware that they are drivers of.
+std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>& devices);
 
 }  // namespace triad

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <limits>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "base/files.h"
 #include "base/log.h"
@@ -52,6 +55,23 @@ std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
     auto lock = std::make_unique<FileLock>(film);
     remove_leftovers(film, true);
     return lock;
+}
+
+std::vector<Device*> pointers(std::vector<Device>& devices) {
+    std::vector<Device*> all;
+    for (Device& device : devices) all.push_back(&device);
+    return all;
+}
+
+/// What is said of every device, each word once.
+template <class Say>
+std::string joined(const std::vector<Device>& devices, const Say& say) {
+    std::string text;
+    std::set<std::string> said;
+    for (const Device& device : devices)
+        if (const std::string word = say(device); said.insert(word).second)
+            text += (text.empty() ? "" : "; ") + word;
+    return text;
 }
 
 Scene timed_scene(const RenderRequest& request, double& seconds) {
@@ -105,8 +125,8 @@ RenderSession::RenderSession(RenderRequest request)
       lock_(lock_of(request_)),
       scene_(timed_scene(request_, load_seconds_)),
       settings_(settings_of(request_, scene_)),
-      device_(open_device(request_)),
-      renderer_(std::make_unique<Renderer>(device_, scene_, settings_)),
+      devices_(open_devices(request_)),
+      renderer_(std::make_unique<Renderer>(pointers(devices_), scene_, settings_)),
       goal_(request_.goal()) {
     if (!request_.film_path.empty())
         goal_.keep = {.write = [this](const Film& film) { keep(film); },
@@ -117,9 +137,9 @@ RenderSession::RenderSession(RenderRequest request)
     const auto& panel = request_.style.reconstruction.panel;
     if (!panel || request_.pixel) return;
     const DisplaySettings display = display_settings(request_.style, false);
-    goal_.perceived_noise = [noise = PerceivedNoise(device_, panel->panel, panel->ppd, display)](
+    goal_.perceived_noise = [noise = PerceivedNoise(devices_.front(), panel->panel, panel->ppd, display)](
                                 const Film& film) { return noise.of(film); };
-    if (goal_.error == 0) goal_.set_errors = perceived_sets(device_, *panel, display);
+    if (goal_.error == 0) goal_.set_errors = perceived_sets(devices_.front(), *panel, display);
 }
 
 /// What is damaged of the film is rendered again.
@@ -187,14 +207,17 @@ std::string RenderSession::scene_name() const {
 Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     const RenderResult& result = outcome.result;
     Metadata metadata = triad::metadata_of(outcome.film);
-    metadata["triad:driver"] = device_.info().driver;
-    metadata["triad:format"] = name_of(format_of(device_));
-    metadata["triad:path_driver"] = name_of(path_driver_of(device_));
+    metadata["triad:driver"] = joined(devices_, [](const Device& d) { return d.info().driver; });
+    metadata["triad:format"] = joined(devices_, [](const Device& d) { return name_of(format_of(d)); });
+    metadata["triad:path_driver"] =
+        joined(devices_, [](const Device& d) { return name_of(path_driver_of(d)); });
     metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
     metadata["triad:scene_name"] = scene_name();
     metadata["triad:machine"] = machine_words();
-    metadata["triad:compute_units"] = std::to_string(device_.info().compute_units);
+    unsigned units = 0;
+    for (const Device& device : devices_) units += device.info().compute_units;
+    metadata["triad:compute_units"] = std::to_string(units);
     describe(request_.style.reconstruction, metadata);
     if (result.perceived_noise) metadata["triad:perceived_noise"] = format("%.4g", *result.perceived_noise);
     if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
@@ -206,7 +229,7 @@ void RenderSession::write(const RenderOutcome& outcome) {
         if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
     };
     try {
-        write_outputs(request_.outputs, device_, outcome.film, request_.style,
+        write_outputs(request_.outputs, devices_.front(), outcome.film, request_.style,
                       layers_of(request_, *renderer_, outcome.film), metadata_of(outcome));
     } catch (const Error&) {
         write_film();

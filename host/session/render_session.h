@@ -43,8 +43,8 @@ class RenderSession {
     /// Of the request. What is measured or decided for its panel comes with it.
     const RenderGoal& goal() const { return goal_; }
     const Scene& scene() const { return scene_; }
-    std::string scene_name() const;  ///< the file's, without folders; "built-in"
-    const Device& device() const { return device_; }
+    std::string scene_name() const;                            ///< the file's, without folders; "built-in"
+    const Device& device() const { return devices_.front(); }  ///< the first of those that render
     Renderer& renderer() { return *renderer_; }
     /// Samples per pixel that the film held which the render went on from.
     double resumed_samples() const { return resumed_samples_; }
@@ -56,7 +56,7 @@ class RenderSession {
     double load_seconds_ = 0, resumed_samples_ = 0;
     Scene scene_;
     RenderSettings settings_;
-    Device device_;
+    std::vector<Device> devices_;
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
     std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes

@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned edge = TileMeans::edge;
 
 std::size_t tiles_across(unsigned width) { return (width + edge - 1) / edge; }
-std::size_t tile_count(unsigned width, unsigned height) { return tiles_across(width) * tiles_across(height); }
+std::size_t kept_tile_count(unsigned width, unsigned height) { return tiles_across(width) * tiles_across(height); }
 std::size_t tile_of(std::size_t pixel, unsigned width) {
     return pixel / width / edge * tiles_across(width) + pixel % width / edge;
 }
@@ -77,7 +77,7 @@ void KeptPictureMaker::add(const Film& film) {
     if (films_ == 0) {
         width_ = film.width, height_ = film.height;
         pixels_.resize(film.pixels() * 3);
-        tiles_.resize((tile_count(width_, height_) + 1) * 3);
+        tiles_.resize((kept_tile_count(width_, height_) + 1) * 3);
     }
     if (film.width != width_ || film.height != height_)
         throw std::invalid_argument("the films of a kept picture must have one size");
@@ -151,7 +151,7 @@ TileMeans tile_means(const KeptPicture& kept) {
     TileMeans means;
     means.width = kept.width, means.height = kept.height;
     means.films = 1, means.samples = kept.samples;
-    means.tiles.resize((tile_count(kept.width, kept.height) + 1) * 3);
+    means.tiles.resize((kept_tile_count(kept.width, kept.height) + 1) * 3);
     // A variance of k degrees of freedom has E[v^2] = (1 + 2 / k) E[v]^2; TileMeans counts as if k were 1.
     const double k = kept.films - 1.0, as_of_one = 3 / (k + 2);
     for (std::size_t i = 0; i < kept.mean.size(); ++i) {

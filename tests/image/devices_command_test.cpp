@@ -1,0 +1,91 @@
+// Several devices make one picture: parts of one device its bytes, others a film that says who took what.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "device/device.h"
+#include "io/io.h"
+#include "program.h"
+#include "running.h"
+#include "unit/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace triad;
+
+namespace {
+
+void expect_exit(int exit, const std::string& arguments, const std::string& sentence = "") {
+    const Outcome outcome = run_triad(arguments);
+    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
+    EXPECT_NE(outcome.output.find(sentence), std::string::npos) << outcome.output;
+}
+
+/// A CPU device that can be halved, or none.
+std::string cpu() {
+    for (const DeviceInfo& device : list_devices().devices)
+        if (device.usable && device.type == "cpu" && device.compute_units > 1)
+            return std::to_string(device.index);
+    return "";
+}
+
+}  // namespace
+
+TEST(DevicesCommand, two_halves_of_a_device_give_its_bytes_and_are_recorded_as_it) {
+    if (cpu().empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    for (const std::string options :
+         {"--size 96x64 --spp 64", "--size 96x64 --spp 60 --adaptive on",
+          "--size 64x36 --bins 2x2 --error 6e-3", "--size 64x36 --panel rgb --ppd 45 --adaptive on --spp 60",
+          "'" TRIAD_SCENES "/suite/glass.glb' --size 64x48 --spp 20 --integrator photons",
+          "'" TRIAD_SCENES "/suite/glass.glb' --size 64x48 --spp 20 --integrator photon-map"}) {
+        const TemporaryFolder folder;
+        const std::string render = "render " + options + " -q --film ";
+        const fs::path whole = folder / "whole.film", halves = folder / "halves.film",
+                       json = folder / "a.json";
+        expect_exit(0, render + whole.string() + " --device " + cpu());
+        expect_exit(0, render + halves.string() + " --device " + cpu() + "/2 --json " + json.string());
+        EXPECT_TRUE(bytes_of(whole) == bytes_of(halves)) << options;
+        const auto devices = nlohmann::json::parse(bytes_of(json))["rows"][0]["devices"];
+        ASSERT_EQ(devices.size(), 2u);
+        for (const auto& device : devices) EXPECT_GT(device["samples"], 0) << options;
+    }
+}
+
+TEST(DevicesCommand, a_render_of_two_halves_that_is_killed_goes_on) {
+    if (cpu().empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    const TemporaryFolder folder;
+    const fs::path whole = folder / "whole.film", film = folder / "a.film";
+    const std::string options = "--size 128x96 --spp 900 --device " + cpu();
+    expect_exit(0, "render " + options + " -q --film " + whole.string());
+    Running render("render " + options + "/2 --progress json --checkpoint 0 --film " + film.string());
+    ASSERT_TRUE(render.says("\"progress\"")) << render.said();
+    render.send(SIGKILL);
+    EXPECT_EQ(render.wait(), -1);
+    expect_exit(0, "render --resume " + film.string() + " -q --device " + cpu() + "/2");
+    EXPECT_TRUE(bytes_of(whole) == bytes_of(film));
+}
+
+TEST(DevicesCommand, what_cannot_be_is_said) {
+    if (cpu().empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    expect_exit(1, "render --device " + cpu() + "/999 --size 8x8 --spp 1 -o /tmp/none.png", "compute units");
+    expect_exit(1, "render --device " + cpu() + ",nothing-like-it --size 8x8 --spp 1 -o /tmp/none.png",
+                "nothing-like-it");
+    expect_exit(1, "render --device " + cpu() + "/0 --size 8x8 --spp 1 -o /tmp/none.png",
+                "at least one part");
+}
+
+TEST(DevicesCommand, all_is_every_piece_of_hardware_once) {
+    const TemporaryFolder folder;
+    const fs::path json = folder / "a.json";
+    expect_exit(0, "render --device all --size 16x16 --spp 4 -q -o " + (folder / "a.png").string() +
+                       " --json " + json.string());
+    std::vector<std::string> hardware;
+    for (const DeviceInfo& device : list_devices().devices)
+        if (device.usable && std::find(hardware.begin(), hardware.end(), device.hardware) == hardware.end())
+            hardware.push_back(device.hardware);
+    EXPECT_EQ(nlohmann::json::parse(bytes_of(json))["rows"][0]["devices"].size(), hardware.size());
+}
