@@ -1,8 +1,10 @@
 #include "render/film_store.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/hash.h"
+#include "kernels/types.h"
 
 namespace triad {
 
@@ -23,6 +25,8 @@ void FilmStore::restart(const PackedScene& packed, const RenderSettings& setting
     film_.ranges.clear();
     film_.progress.reset();
     film_.shares.clear();
+    film_.sums.clear(), film_.half_sums.clear(), film_.samples.clear();
+    film_.counters = {};
 }
 
 void FilmStore::add_device(const std::string& words) {
@@ -40,6 +44,37 @@ const Film& FilmStore::gather(const Tracers& tracers) {
     film_.counters = {};
     for (const auto& tracer : tracers) tracer->part().add_to(film_);
     return film_;
+}
+
+void FilmStore::deliver(Tracer& tracer) {
+    Film part;
+    part.width = film_.width, part.height = film_.height;
+    part.bins_x = film_.bins_x, part.bins_y = film_.bins_y;
+    tracer.part().add_to(part);
+    if (film_.sums.empty()) {
+        film_.sums = std::move(part.sums), film_.half_sums = std::move(part.half_sums);
+        film_.samples = std::move(part.samples);
+    } else {
+        add_sums(film_.sums, part.sums);
+        add_sums(film_.half_sums, part.half_sums);
+        for (std::size_t i = 0; i < film_.samples.size(); ++i) film_.samples[i] += part.samples[i];
+    }
+    for (std::size_t c = 0; c < film_.counters.size(); ++c) film_.counters[c] += part.counters[c];
+}
+
+void FilmStore::begin_with(const Film& film) {
+    film_.sums = film.sums, film_.half_sums = film.half_sums, film_.samples = film.samples;
+    film_.counters = film.counters;
+}
+
+void FilmStore::drop_tiles(const std::vector<bool>& tiles) {
+    const std::size_t across = (film_.width + FILM_TILE - 1) / FILM_TILE, bins = film_.bins() * 4;
+    for (std::size_t p = 0; p < film_.pixels(); ++p) {
+        if (!tiles[p / film_.width / FILM_TILE * across + p % film_.width / FILM_TILE]) continue;
+        std::fill_n(film_.sums.begin() + std::ptrdiff_t(p * bins), bins, 0);
+        std::fill_n(film_.half_sums.begin() + std::ptrdiff_t(p * 3), 3, 0);
+        film_.samples[p] = 0;
+    }
 }
 
 }  // namespace triad

@@ -33,6 +33,13 @@ class FilmStore {
     void set_progress(std::optional<FilmProgress> progress) { film_.progress = std::move(progress); }
     /// Reads the parts into the arrays, which are then what all tracers have found so far.
     const Film& gather(const Tracers& tracers);
+    /// Adds what a tracer's part holds to the arrays. Throws where it cannot be read, and has then added
+    /// nothing.
+    void deliver(Tracer& tracer);
+    /// The arrays begin as those of a film that goes on.
+    void begin_with(const Film& film);
+    /// Tiles of the crop lose their samples.
+    void drop_tiles(const std::vector<bool>& tiles);
 
   private:
     Film film_;

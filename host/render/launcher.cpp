@@ -4,6 +4,7 @@
 #include <exception>
 #include <thread>
 
+#include "base/error.h"
 #include "render/renderer_state.h"
 
 namespace triad {
@@ -52,11 +53,10 @@ void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, con
                 if (orders.stop()) return;
                 share.set_pace(i, tracers_[i]->pace);
                 piece = share.take(i, orders.launch_seconds(), tracers_[i]->most_tiles());
+                if (piece.count == 0) return;
+                orders.taken(i, piece);
             }
-            if (piece.count == 0) return;
             launch(i, piece, work, orders.first_sample);
-            const std::lock_guard lock(mutex_);
-            orders.done(i, piece);
         }
     });
 }
@@ -71,22 +71,41 @@ void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std
     }
 }
 
+void Launcher::attempt(std::size_t i, const std::function<void(std::size_t)>& work) {
+    if (!is_alive(i)) return;
+    if (tracers_.size() == 1) return work(i);
+    try {
+        work(i);
+    } catch (const Error&) {
+        const std::lock_guard lock(mutex_);
+        tracers_[i]->failure = last_failure_ = std::current_exception();
+    }
+}
+
+void Launcher::require_one() const {
+    for (std::size_t i = 0; i < tracers_.size(); ++i)
+        if (is_alive(i)) return;
+    std::rethrow_exception(last_failure_ ? last_failure_ : tracers_.back()->failure);
+}
+
 void Launcher::on_every_tracer(const std::function<void(std::size_t)>& work) {
     if (tracers_.size() == 1) return work(0);
-    std::exception_ptr failed;
+    std::exception_ptr defect;  // of the program, not of a device
     {
         std::vector<std::jthread> threads;
         for (std::size_t i = 0; i < tracers_.size(); ++i)
-            threads.emplace_back([&, i] {
-                try {
-                    work(i);
-                } catch (...) {
-                    const std::lock_guard lock(mutex_);
-                    if (!failed) failed = std::current_exception();
-                }
-            });
+            if (is_alive(i))
+                threads.emplace_back([&, i] {
+                    try {
+                        attempt(i, work);
+                    } catch (...) {
+                        const std::lock_guard lock(mutex_);
+                        defect = std::current_exception();
+                    }
+                });
     }
-    if (failed) std::rethrow_exception(failed);
+    if (defect) std::rethrow_exception(defect);
+    require_one();
 }
 
 }  // namespace triad

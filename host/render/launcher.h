@@ -1,6 +1,7 @@
 #pragma once
 /// Launches of a list of work, on every tracer at once, that are neither long nor short.
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -31,19 +32,24 @@ class Launcher {
         std::uint64_t first_sample = 0;          ///< from which those of the work are counted
         std::function<double()> launch_seconds;  ///< of the next launch at most
         std::function<bool()> stop;              ///< before each: leave the rest
-        std::function<void(std::size_t tracer, WorkPiece)> done;
+        std::function<void(std::size_t tracer, WorkPiece)> taken;
     };
     /// Launches on every tracer, each in a thread of its own where there are several, until the work, which
-    /// the tracers were given, is done or orders.stop() says so; measures their paces. Throws what a tracer
-    /// threw.
+    /// the tracers were given, is done or orders.stop() says so; measures their paces. What a tracer has
+    /// taken it has done, or it has failed.
     void run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders);
 
     /// One launch of one tracer after the other until a whole list is done, as run() does it.
     void run_on(std::size_t tracer, const std::vector<dev::TileWork>& work, std::uint64_t first_sample);
 
-    /// Calls work(tracer) for every tracer, each in a thread of its own where there are several. Throws what
-    /// the first of them threw, when all have returned.
+    /// Calls work(tracer) for every tracer that has not failed, each in a thread of its own where there are
+    /// several. One that throws an Error has failed, and is used no more; throws it when none is left.
     void on_every_tracer(const std::function<void(std::size_t)>& work);
+    /// The same of one, in this thread; does nothing where it has failed.
+    void attempt(std::size_t tracer, const std::function<void(std::size_t)>& work);
+    bool is_alive(std::size_t tracer) const { return !tracers_[tracer]->failure; }
+    /// Throws what the last one threw when none is left.
+    void require_one() const;
 
     void add_busy(std::size_t tracer, double seconds) { busy_[tracer] += seconds; }
     /// Seconds that a tracer worked, and samples that it took, so far.
@@ -57,6 +63,7 @@ class Launcher {
     std::vector<double> busy_;
     std::vector<std::uint64_t> samples_;
     std::mutex mutex_;
+    std::exception_ptr last_failure_;
 
     void launch(std::size_t tracer, WorkPiece piece, const std::vector<dev::TileWork>& work,
                 std::uint64_t first_sample);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "base/error.h"
 #include "base/log.h"
 #include "base/text.h"
 
@@ -41,6 +42,9 @@ RenderLoop::RenderLoop(Renderer::State& state, const RenderGoal& goal,
       pixels_(set_pixels(film().width, film().height)),
       launcher_(state.tracers, pixels_),
       have_(pixels_.size()),
+      undelivered_(state.tracers.size(), Undelivered(tiles_)),
+      is_dealt_with_(state.tracers.size()),
+      next_delivery_(seconds_between_deliveries),
       next_kept_(goal.keep.seconds),
       next_report_(seconds_between_reports) {
     std::uint64_t before = 0;
@@ -82,12 +86,12 @@ void RenderLoop::go_on_from(const FilmProgress& progress) {
 
 RenderResult RenderLoop::run() {
     const double processor_start = processor_seconds();
-    if (photons().is_classic()) make_classic_map();
-    for (bool more = !wanted_.empty() || plan_round(); more; more = plan_round()) {
-        reach(wanted_);
-        if (interrupted_ || cut_) break;
-        if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
-        if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
+    try {
+        if (photons().is_classic()) make_classic_map();
+        work_through_rounds();
+    } catch (const Error&) {
+        keep_what_was_delivered();
+        throw;
     }
     const double rendered = seconds(), processor = processor_seconds() - processor_start;
     if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
@@ -102,6 +106,16 @@ RenderResult RenderLoop::run() {
     s_.store.set_progress(s_.progress);
     const SampleRange range{goal_.samples.begin, goal_.samples.begin + least()};
     return {range, stop, rendered, processor, trend_.slope(), perceived_noise_, devices()};
+}
+
+void RenderLoop::work_through_rounds() {
+    for (bool more = !wanted_.empty() || plan_round(); more; more = plan_round()) {
+        reach(wanted_);
+        if (interrupted_ || cut_) break;
+        if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
+        if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
+    }
+    if (is_shared()) gather();  // so that no failure of a device costs anything any more
 }
 
 /// Sets wanted_; false: the goal is reached.
@@ -141,6 +155,7 @@ void RenderLoop::reach(const SetSamples& wanted) {
         const double fit = launcher_.pace() * launches_per_pass * launch_seconds / double(waiting);
         if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
         if (goal_.follow && seconds() >= next_estimate_) estimate(false);
+        if (is_shared() && seconds() >= next_delivery_) gather();
         report();
     }
 }
@@ -246,7 +261,8 @@ std::vector<DeviceWork> RenderLoop::devices() const {
     for (std::size_t i = 0; i < s_.tracers.size(); ++i) {
         const double busy = launcher_.busy_seconds(i);
         work.push_back({&s_.tracers[i]->device().info(), launcher_.samples(i), busy,
-                        launching_ > 0 ? std::max(0.0, 1 - busy / launching_) : 0});
+                        launching_ > 0 ? std::max(0.0, 1 - busy / launching_) : 0,
+                        s_.tracers[i]->why_lost()});
     }
     return work;
 }

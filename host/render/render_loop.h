@@ -10,9 +10,13 @@
 #include "render/adaptive.h"
 #include "render/launcher.h"
 #include "render/renderer_state.h"
+#include "render/undelivered.h"
 #include "scene/film_sets.h"
 
 namespace triad {
+
+/// Of several devices: what one has taken is read at least so often.
+constexpr double seconds_between_deliveries = 20;
 
 class RenderLoop {
   public:
@@ -39,6 +43,11 @@ class RenderLoop {
     SetErrors set_errors_;                    ///< the latest
     std::uint64_t total_ = 0;                 ///< samples over all pixels: what have_ adds up to
     std::uint64_t total_at_start_ = 0;
+    std::vector<Undelivered> undelivered_;  ///< by tracer
+    std::vector<bool> is_dealt_with_;       ///< of tracers that failed: others have their work
+    std::vector<LostWork> lost_;
+    std::size_t redone_ = 0;  ///< of these: tracers have other work since
+    double next_delivery_ = 0;
     bool has_looked_ = false;  ///< goal_.set_errors was asked
     bool interrupted_ = false;
     /// Photons came with a sample of some tiles alone. Time may be left, where tiles took less than was
@@ -58,6 +67,7 @@ class RenderLoop {
     // render_loop.cpp: rounds, and what is known of the picture
     void go_on();
     void go_on_from(const FilmProgress& progress);
+    void work_through_rounds();
     bool plan_round();
     SetSamples wanted_at(double end) const;
     void reach(const SetSamples& wanted);
@@ -76,19 +86,30 @@ class RenderLoop {
 
     // render_passes.cpp: what the devices do
     bool pass(const SetSamples& wanted, unsigned run);
-    std::vector<dev::TileWork> work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const;
-    bool pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut);
+    TileWorks work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const;
+    bool pass_with_photons(TileWorks work, bool may_be_cut);
     void trace_photons(std::size_t tracer, std::uint64_t sample, double share);
     void make_classic_map();
+    void choose_tiles(std::size_t tracer, const TileWorks& work);
     std::size_t scattered(std::size_t i) const;
-    void count(const std::vector<dev::TileWork>& work, WorkPiece piece);
-    void credit(const std::vector<dev::TileWork>& work, std::size_t tracer, WorkPiece piece);
+    void count(const TileWorks& work, WorkPiece piece);
+    void credit(const TileWorks& work, std::size_t tracer, WorkPiece piece);
+
+    // render_losses.cpp: what is delivered, and what devices took along that failed
+    void gather();
+    bool redo_lost();
+    void redo(const TileWorks& work);
+    void redo_with_photons(const TileWorks& work, std::uint32_t sample);
+    void recredit(const TileWorks& work, std::size_t tracer, WorkPiece piece,
+                  std::optional<std::uint32_t> sample);
+    void keep_what_was_delivered();
 
     const Film& film() const { return s_.film(); }
     PhotonTracer& photons() const { return s_.tracers.front()->photons(); }
+    /// Several devices work on the picture.
+    bool is_shared() const { return s_.tracers.size() > 1; }
     /// Every sample comes with photons of its own.
     bool has_photons_per_sample() const { return photons().count() > 0 && !photons().is_classic(); }
-    void gather() { s_.store.gather(s_.tracers); }
 
     double seconds() const { return seconds_since(start_); }
     double samples() const { return double(total_) / double(film().pixels()); }

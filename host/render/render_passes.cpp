@@ -1,8 +1,10 @@
 /// The passes of a RenderLoop.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "render/render_loop.h"
 
@@ -21,7 +23,7 @@ constexpr unsigned samples_to_share = 16;
 bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
     const auto bins = unsigned(film().bins());  // each gets as many samples, wherever a render is cut
     run = std::max(run / bins, 1u) * bins;
-    if (has_photons_per_sample() && s_.tracers.size() > 1)  // samples are what these share
+    if (has_photons_per_sample() && is_shared())  // samples are what these share
         run = std::max(run, samples_to_share * unsigned(s_.tracers.size()) * bins);
     // A film that is to go on holds no samples with a part of their photons.
     const bool may_be_cut = least() > 0 && schedule_.may_end_within_sample(samples(), seconds()) &&
@@ -32,12 +34,17 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
         const double whole = may_be_cut ? std::floor(fit) : std::round(fit);
         run = bins * unsigned(std::clamp(whole, 1.0, double(run / bins)));
     }
-    const std::vector<dev::TileWork> work = work_towards(wanted, run, may_be_cut);
+    const TileWorks work = work_towards(wanted, run, may_be_cut);
     if (has_photons_per_sample()) return pass_with_photons(work, may_be_cut);
-    for (auto& tracer : s_.tracers) tracer->set_work(work);
+    const auto give_work = [&] {
+        launcher_.on_every_tracer([&](std::size_t i) { s_.tracers[i]->set_work(work); });
+    };
+    std::size_t given = redone_;
+    give_work();
     WorkShare share = launcher_.share_of(work);
     const auto time_is_up = [&] { return may_be_cut && schedule_.time_is_up(samples(), seconds()); };
     while (!share.is_done() && !time_is_up()) {
+        if (std::exchange(given, redone_) != redone_) give_work();
         bool has_launched = false;
         const double began = seconds();
         launcher_.run(share, work,
@@ -48,12 +55,15 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
                                                  : launch_seconds;
                            },
                        .stop = [&] { return has_launched && (is_keeping_due() || time_is_up()); },
-                       .done =
+                       .taken =
                            [&](std::size_t tracer, WorkPiece piece) {
                                count(work, piece), credit(work, tracer, piece);
+                               for (std::size_t i = 0; i < piece.count && is_shared(); ++i)
+                                   undelivered_[tracer].add(work[piece.first + i]);
                                has_launched = true;
                            }});
         launching_ += seconds() - began;
+        redo_lost();
         keep_when_due();
     }
     return share.is_done();
@@ -61,15 +71,14 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
 
 /// Up to `run` samples of every set that wants more. With photons, which are a sample's of the whole picture,
 /// only of sets that have the least, and up to what others have.
-std::vector<dev::TileWork> RenderLoop::work_towards(const SetSamples& wanted, unsigned run,
-                                                    bool may_be_cut) const {
+TileWorks RenderLoop::work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const {
     std::uint32_t from = ~0u;
     if (has_photons_per_sample()) {
         from = least();
         for (const std::uint32_t n : have_)
             if (n > from) run = std::min(run, n - from);
     }
-    std::vector<dev::TileWork> work;
+    TileWorks work;
     for (std::size_t i = 0; i < tiles_; ++i) {
         const std::size_t t = may_be_cut ? scattered(i) : i;
         dev::TileWork w{std::uint32_t(t), {have_[2 * t], have_[2 * t + 1]}, {}, {}};
@@ -84,7 +93,7 @@ std::vector<dev::TileWork> RenderLoop::work_towards(const SetSamples& wanted, un
 
 /// The same for an even pass whose samples come with photons. Paths may want these, so that it must be
 /// known beforehand how many tiles time leaves.
-bool RenderLoop::pass_with_photons(std::vector<dev::TileWork> work, bool may_be_cut) {
+bool RenderLoop::pass_with_photons(TileWorks work, bool may_be_cut) {
     const std::size_t all = work.size();
     const std::uint32_t run = work.front().sample_count[0];
     double share = goal_.photon_share;
@@ -103,19 +112,24 @@ bool RenderLoop::pass_with_photons(std::vector<dev::TileWork> work, bool may_be_
         if (tiles < share) tiles = std::clamp((left - share * photon_time) / paths, 0.0, 1.0);
         work.resize(std::max<std::size_t>(std::size_t(tiles * double(all)), 1));
     }
-    const bool on_some_tiles = work.size() < tiles_;
-    if (on_some_tiles) {
-        std::vector<std::uint32_t> chosen(tiles_, 0);
-        for (const dev::TileWork& w : work) chosen[w.tile] = 1;
-        for (auto& tracer : s_.tracers) tracer->photons().set_tiles(chosen);
-    }
     for (dev::TileWork& w : work) w.sample_count[0] = w.sample_count[1] = 1;
-    for (auto& tracer : s_.tracers) tracer->set_work(work);
+    const auto give_work = [&] {
+        launcher_.on_every_tracer([&](std::size_t i) {
+            s_.tracers[i]->set_work(work);
+            choose_tiles(i, work);
+        });
+    };
+    std::size_t given = redone_;
+    give_work();
+    const auto shared = std::make_shared<const TileWorks>(work);
     const std::uint64_t first = goal_.samples.begin + work.front().first_sample[0];
     const WorkPiece whole{0, work.size()};
     for (std::uint32_t next = 0; next < run && !interrupted_;) {
+        if (std::exchange(given, redone_) != redone_) give_work();
         bool has_begun = false;
         std::vector<std::size_t> takers;  // of the samples, in their order
+        std::size_t lead = 0;             // takes a sample that is cut alone
+        while (lead + 1 < s_.tracers.size() && !launcher_.is_alive(lead)) ++lead;
         const double began = seconds();
         // Every device takes whole samples: photons light a picture as a whole. A cut one is the first's.
         launcher_.on_every_tracer([&](std::size_t tracer) {
@@ -124,26 +138,34 @@ bool RenderLoop::pass_with_photons(std::vector<dev::TileWork> work, bool may_be_
                 {
                     const std::lock_guard lock(launcher_.mutex());
                     if (seconds() >= next_report_ && least() > 0) report();
-                    if (next == run || (may_be_cut && tracer > 0) || interrupted_ ||
+                    if (next == run || (may_be_cut && tracer != lead) || interrupted_ ||
                         (has_begun && is_keeping_due()))
                         return;
                     i = next++, has_begun = true;
                     takers.push_back(tracer);
+                    if (is_shared()) undelivered_[tracer].add_sample(shared, i);
+                    count(work, whole);
                 }
                 trace_photons(tracer, first + i, share);
                 launcher_.run_on(tracer, work, goal_.samples.begin + i);
-                const std::lock_guard lock(launcher_.mutex());
-                count(work, whole);
             }
         });
         for (const std::size_t tracer : takers) credit(work, tracer, whole);
         launching_ += seconds() - began;
+        redo_lost();
         keep_when_due();
     }
-    if (on_some_tiles)
-        for (auto& tracer : s_.tracers) tracer->photons().set_tiles(std::vector<std::uint32_t>(tiles_, 1));
+    if (work.size() < tiles_) launcher_.on_every_tracer([this](std::size_t i) { choose_tiles(i, {}); });
     cut_ = work.size() < all;
     return !cut_;
+}
+
+/// Photons count in the tiles of this work alone; empty: in all.
+void RenderLoop::choose_tiles(std::size_t tracer, const TileWorks& work) {
+    if (work.size() == tiles_) return;
+    std::vector<std::uint32_t> chosen(tiles_, work.empty() ? 1 : 0);
+    for (const dev::TileWork& w : work) chosen[w.tile] = 1;
+    s_.tracers[tracer]->photons().set_tiles(chosen);
 }
 
 void RenderLoop::trace_photons(std::size_t i, std::uint64_t sample, double share) {
@@ -177,7 +199,7 @@ std::size_t RenderLoop::scattered(std::size_t i) const {
 }
 
 /// Samples that were taken.
-void RenderLoop::count(const std::vector<dev::TileWork>& work, WorkPiece piece) {
+void RenderLoop::count(const TileWorks& work, WorkPiece piece) {
     for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
         total_ += launcher_.samples_of(work[i]);
         for (std::size_t set = 0; set < 2; ++set) have_[2 * work[i].tile + set] += work[i].sample_count[set];
@@ -185,7 +207,7 @@ void RenderLoop::count(const std::vector<dev::TileWork>& work, WorkPiece piece) 
 }
 
 /// The next samples of their sets, by this tracer.
-void RenderLoop::credit(const std::vector<dev::TileWork>& work, std::size_t tracer, WorkPiece piece) {
+void RenderLoop::credit(const TileWorks& work, std::size_t tracer, WorkPiece piece) {
     if (s_.shares.sets() == 0) return;
     const std::uint32_t device = s_.store.place_of(s_.tracers[tracer]->device().info());
     for (std::size_t i = piece.first; i < piece.first + piece.count; ++i)

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "render/photon_pilot.h"
 #include "render/renderer_state.h"
 #include "trace/node_format.h"
@@ -56,12 +58,26 @@ void require_same_settings(const Film& here, const Film& film) {
                                  (differences.empty() ? "" : ": " + differences) + ".");
 }
 
+/// False: of several devices this one cannot do it and is left out, which a warning tells.
+bool try_device(std::size_t devices, const std::function<void()>& work) {
+    if (devices == 1) return work(), true;
+    try {
+        work();
+        return true;
+    } catch (const Error& error) {
+        warn(std::string(error.what()) + " The device is left out.");
+        return false;
+    }
+}
+
 DeviceScenes scene_on(std::span<Device* const> devices, const Scene& scene, const RenderSettings& settings) {
     BvhFormats formats;
     for (const Device* device : devices) formats.insert(format_of(*device));
     const auto packed = pack_for(scene, settings, {}, formats);
     DeviceScenes scenes;
-    for (Device* device : devices) scenes.push_back(std::make_shared<DeviceScene>(*device, packed));
+    for (Device* device : devices)
+        try_device(devices.size(), [&] { scenes.push_back(std::make_shared<DeviceScene>(*device, packed)); });
+    if (scenes.empty()) throw Error(Exit::device, "No device is left to render on.");
     return scenes;
 }
 
@@ -76,10 +92,20 @@ Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, cons
     const auto start = RenderClock::now();
     for (const auto& scene : scenes) {
         assert(scene->shared() == packed);
-        tracers.push_back(std::make_unique<Tracer>(scene, settings, features, store.film()));
+        if (!try_device(scenes.size(), [&] {
+                tracers.push_back(std::make_unique<Tracer>(scene, settings, features, store.film()));
+            }))
+            continue;
         store.add_device(scene->device().info());
     }
+    if (tracers.empty()) throw Error(Exit::device, "No device is left to render on.");
     compile_seconds = seconds_since(start);
+}
+
+Tracer& Renderer::State::first_alive() const {
+    for (const auto& tracer : tracers)
+        if (!tracer->failure) return *tracer;
+    return *tracers.front();
 }
 
 void Renderer::State::go_on_with_devices_of(const Film& film) {
@@ -133,7 +159,7 @@ void Renderer::restart(std::uint32_t seed) {
 
 Film Renderer::film() {
     State& s = *state_;
-    s.store.gather(s.tracers);
+    if (s.tracers.size() == 1 || s.film().sums.empty()) s.store.gather(s.tracers);  // else all is delivered
     return merge(std::span<const Film>(&s.film(), 1));
 }
 
@@ -147,7 +173,10 @@ void Renderer::resume(const Film& film) {
         if (tracer->photons().is_classic()) tracer->photons().make_classic_map(tracer->part());
         tracer->part().clear();  // of the map's counters as well: the film's are loaded
     }
-    s.tracers.front()->part().load(film);
+    if (s.tracers.size() == 1)
+        s.tracers.front()->part().load(film);
+    else
+        s.store.begin_with(film);
     s.store.set_ranges(film.ranges);
     s.have = samples_of_sets(film);
     s.go_on_with_devices_of(film);
@@ -155,14 +184,15 @@ void Renderer::resume(const Film& film) {
 }
 
 FeaturePlanes Renderer::feature_planes(unsigned samples) {
-    return triad::feature_planes(*state_->tracers.front(), samples);
+    return triad::feature_planes(state_->first_alive(), samples);
 }
 
 void Renderer::record_pixel(unsigned x, unsigned y, SampleRange range,
                             const std::function<void(const RecordedPath&)>& receive) {
-    record_paths(*state_->tracers.front(), x, y, range, receive);
+    record_paths(state_->first_alive(), x, y, range, receive);
 }
 
+Device& Renderer::device() const { return state_->first_alive().device(); }
 const PackedScene& Renderer::packed() const { return *state_->packed; }
 const Features& Renderer::features() const { return state_->features; }
 double Renderer::build_seconds() const { return state_->build_seconds; }

@@ -35,6 +35,7 @@ struct DeviceWork {
     std::uint64_t samples = 0;  ///< of all pixels together
     double busy_seconds = 0;    ///< of those in which devices were to work
     double idle = 0;            ///< share of these in which it had nothing to do
+    std::string failure;        ///< a sentence; empty: it did not fail
 };
 
 struct RenderResult {
@@ -88,6 +89,8 @@ class Renderer {
     void record_pixel(unsigned x, unsigned y, SampleRange range,
                       const std::function<void(const RecordedPath&)>& receive);
 
+    /// The first that has not failed.
+    Device& device() const;
     const PackedScene& packed() const;
     const Features& features() const;
     /// Who brings the light, and why: a sentence.

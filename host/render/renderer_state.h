@@ -32,6 +32,8 @@ struct Renderer::State {
 
     /// Of a film that this one goes on from, whose samples `have` counts.
     void go_on_with_devices_of(const Film& film);
+    /// Whose device has not failed.
+    Tracer& first_alive() const;
     std::uint64_t photons() const { return tracers.front()->photons().count(); }
     const Film& film() const { return store.film(); }
 };

@@ -21,7 +21,8 @@ Json rows_of(const std::vector<DeviceWork>& devices) {
                         {"compute_units", work.device->compute_units},
                         {"samples", work.samples},
                         {"busy_s", work.busy_seconds},
-                        {"idle", work.idle}});
+                        {"idle", work.idle},
+                        {"failure", work.failure}});
     return rows;
 }
 

@@ -1,5 +1,7 @@
 #include "scene/sample_shares.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace triad {
@@ -11,6 +13,27 @@ void SampleShares::add(std::size_t set, std::uint32_t device, std::uint32_t samp
         runs.back().second += samples;
     else
         runs.emplace_back(device, samples);
+}
+
+void SampleShares::set(std::size_t set, std::uint32_t first, std::uint32_t count, std::uint32_t device) {
+    const std::vector<Run> before = std::move(runs_[set]);
+    runs_[set].clear();
+    std::uint32_t at = 0;
+    for (const auto& [owner, samples] : before) {
+        const std::uint32_t end = at + samples, from = std::clamp(first, at, end),
+                            to = std::clamp(first + count, at, end);
+        add(set, owner, from - at), add(set, device, to - from), add(set, owner, end - to);
+        at = end;
+    }
+}
+
+void SampleShares::cut(std::size_t set, std::uint32_t samples) {
+    const std::vector<Run> before = std::move(runs_[set]);
+    runs_[set].clear();
+    for (const auto& [owner, count] : before) {
+        add(set, owner, std::min(count, samples));
+        samples -= std::min(count, samples);
+    }
 }
 
 void SampleShares::rename(std::span<const std::uint32_t> to) {

@@ -19,6 +19,10 @@ class SampleShares {
 
     /// The next samples of a set.
     void add(std::size_t set, std::uint32_t device, std::uint32_t samples);
+    /// Samples of a set that it has already are another device's.
+    void set(std::size_t set, std::uint32_t first, std::uint32_t count, std::uint32_t device);
+    /// A set has its first `samples` alone.
+    void cut(std::size_t set, std::uint32_t samples);
     /// In the order of its samples.
     const std::vector<Run>& of(std::size_t set) const { return runs_[set]; }
     std::size_t sets() const { return runs_.size(); }

@@ -218,6 +218,11 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     unsigned units = 0;
     for (const Device& device : devices_) units += device.info().compute_units;
     metadata["triad:compute_units"] = std::to_string(units);
+    std::string lost;
+    for (const DeviceWork& work : result.devices)
+        if (!work.failure.empty())
+            lost += (lost.empty() ? "" : "; ") + work.device->name + ": " + work.failure;
+    if (!lost.empty()) metadata["triad:failed_devices"] = lost;
     describe(request_.style.reconstruction, metadata);
     if (result.perceived_noise) metadata["triad:perceived_noise"] = format("%.4g", *result.perceived_noise);
     if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
@@ -229,7 +234,7 @@ void RenderSession::write(const RenderOutcome& outcome) {
         if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
     };
     try {
-        write_outputs(request_.outputs, devices_.front(), outcome.film, request_.style,
+        write_outputs(request_.outputs, renderer_->device(), outcome.film, request_.style,
                       layers_of(request_, *renderer_, outcome.film), metadata_of(outcome));
     } catch (const Error&) {
         write_film();

@@ -1,6 +1,8 @@
 #include "trace/tracer.h"
 
 #include <algorithm>
+#include <exception>
+#include <string>
 
 #include "pack/ray_filter.h"
 #include "scene/film_sets.h"
@@ -35,6 +37,20 @@ void Tracer::restart(std::uint32_t seed) {
     device_.write(frame_buffer_, &frame_, sizeof frame_);
     part_.clear();
     photons_.restart();
+}
+
+void Tracer::empty() {
+    part_.clear();
+    finish();
+}
+
+std::string Tracer::why_lost() const {
+    if (!failure) return {};
+    try {
+        std::rethrow_exception(failure);
+    } catch (const std::exception& error) {
+        return error.what();
+    }
 }
 
 void Tracer::set_work(std::span<const dev::TileWork> work) {

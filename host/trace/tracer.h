@@ -1,5 +1,6 @@
 #pragma once
 /// One device's work on one picture: from lists of work to a part of the film.
+#include <exception>
 #include <memory>
 #include <optional>
 #include <span>
@@ -39,8 +40,14 @@ class Tracer {
     std::uint64_t bytes() const;
     std::size_t most_tiles() const { return driver_->most_tiles(); }  ///< of one call of trace()
 
+    /// The part of the film is read: it begins again.
+    void empty();
+
     /// Samples that it traces in a second, by what was measured last; 0: nothing was.
     double pace = 0;
+    /// What its device threw, where several work on a picture: it is asked for nothing more.
+    std::exception_ptr failure;
+    std::string why_lost() const;  ///< a sentence; empty: it did not fail
 
   private:
     std::shared_ptr<const DeviceScene> scene_;
