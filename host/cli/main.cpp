@@ -1,6 +1,7 @@
 // The only place that catches, prints and exits.
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -72,12 +73,8 @@ int run(int argc, char** argv) {
     }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-    survive_drivers(argc, argv);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
-    std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
+/// The exit code of a whole program.
+int run_and_tell(int argc, char** argv) {
     try {
         return run(argc, argv);
     } catch (const Error& error) {
@@ -90,4 +87,16 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         return complain(internal_error, std::string("internal error: ") + error.what());
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    survive_drivers(argc, argv);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
+    std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
+    const int exit = run_and_tell(argc, argv);
+    if (!any_device_hangs()) return exit;
+    std::cout.flush(), std::fflush(nullptr);
+    std::_Exit(exit);  // its driver would wait for it
 }

@@ -10,6 +10,7 @@
 #include "cli/command_line.h"
 #include "cli/render_options.h"
 #include "cli/resume.h"
+#include "io/io.h"
 #include "kernels/types.h"
 #include "report/pixel_table.h"
 #include "report/render_report.h"
@@ -85,11 +86,18 @@ Exit run(const RenderRequest& request, const CLI::App& command) {
     Progress progress;
     {
         ProgressDisplay display(progress_style(request.progress));
-        outcome = session.render([&](const Progress& p) {
-            progress = p;
-            display.update(shown(p, goal));
-            return !guard.interrupted();
-        });
+        try {
+            outcome = session.render([&](const Progress& p) {
+                progress = p;
+                display.update(shown(p, goal));
+                return !guard.interrupted();
+            });
+        } catch (const Error& error) {
+            const std::string& kept = session.request().film_path;
+            if (!is_film(kept)) throw;
+            throw Error(error.exit(),
+                        std::string(error.what()) + "\nTo go on: " + command_that_goes_on(command, kept));
+        }
     }
     const Film& film = outcome.film;
     detail("The film has " + bytes_text(film_bytes(film)) + ", " + std::to_string(film.bins()) +

@@ -52,6 +52,7 @@ cl_device_id restrict_to(const Device::Settings& settings, DeviceState& state) {
 
 void DeviceState::finish() {
     core->require_alive();
+    await();
     core->check("clFinish", clFinish(commands()));
     first_runs.reset();
     for (const auto& [kernel, handle] : events) {
@@ -148,7 +149,10 @@ Buffer Device::hold(void* memory, std::size_t bytes, std::shared_ptr<const void>
     buffer.bytes_ = bytes;
     buffer.handle_ = {memory, [core = state_->core, bytes, owner = std::move(owner)](void* object) {
                           core->allocated -= bytes;
-                          if (!core->lost) clReleaseMemObject(static_cast<cl_mem>(object));
+                          if (!core->lost)
+                              clReleaseMemObject(static_cast<cl_mem>(object));
+                          else  // a kernel that hangs may still read it: never freed
+                              new std::shared_ptr<const void>(owner);
                       }};
     return buffer;
 }
@@ -156,6 +160,7 @@ Buffer Device::hold(void* memory, std::size_t bytes, std::shared_ptr<const void>
 void Device::write(const Buffer& buffer, const void* data, std::size_t bytes, std::size_t offset) {
     if (bytes == 0) return;
     state_->core->require_alive();
+    state_->await();
     state_->core->check("clEnqueueWriteBuffer",
                         clEnqueueWriteBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
                                              CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
@@ -164,6 +169,7 @@ void Device::write(const Buffer& buffer, const void* data, std::size_t bytes, st
 void Device::read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset) {
     if (bytes == 0) return;
     state_->core->require_alive();
+    state_->await();
     state_->core->check("clEnqueueReadBuffer",
                         clEnqueueReadBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
                                             CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
@@ -228,6 +234,8 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
 }
 
 void Device::finish() { state_->finish(); }
+
+void Device::set_patience(double seconds) { state_->patience = seconds; }
 
 std::size_t Device::preferred_local() const { return state_->preferred_local; }
 

@@ -59,6 +59,9 @@ struct DeviceList {
 /// earlier program found is still believed. Does not return in the child process that tries drivers.
 void survive_drivers(int argc, char** argv);
 
+/// Whether a device of this process hangs: ending the process then must wait for nothing (std::_Exit).
+bool any_device_hangs();
+
 /// Every device of every platform, in the order of their indices. Never throws for a broken one: it is listed
 /// as unusable, or as a problem.
 DeviceList list_devices();
@@ -227,6 +230,9 @@ class Device {
     /// a DeviceError.
     void run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local = 0);
     void finish();
+    /// How long finish(), read() and write() wait for what was enqueued before: a device that takes longer
+    /// hangs, which is a DeviceError, and is used no more. 0, the default: for ever.
+    void set_patience(double seconds);
 
     /// Work-group size for kernels that say none: 64 until another was measured best (trace/tune.h).
     std::size_t preferred_local() const;

@@ -95,12 +95,14 @@ struct DeviceState {
     std::size_t preferred_local = 1;
     Options shape;
     std::map<std::string, std::string> choices;
-    double compile_seconds = 0;
+    double compile_seconds = 0, patience = 0;
 
     cl_context cl() const { return static_cast<cl_context>(context.get()); }
     cl_command_queue commands() const { return static_cast<cl_command_queue>(queue.get()); }
     /// Waits for the queue and moves its launches from `events` to `times`.
     void finish();
+    /// Waits until the queue is empty, with patience.
+    void await();
 };
 
 }  // namespace triad::opencl

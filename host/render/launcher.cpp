@@ -8,6 +8,13 @@
 #include "render/renderer_state.h"
 
 namespace triad {
+namespace {
+
+/// A device that takes so many times as long as it ever did hangs; but no sooner than after so many seconds,
+/// and at its first launch, which a driver may compile for, after more.
+constexpr double times_the_longest = 50, least_patience = 10, first_patience = 120;
+
+}  // namespace
 
 double Launcher::pace() const {
     double sum = 0;
@@ -34,6 +41,7 @@ void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::Til
     Tracer& tracer = *tracers_[i];
     std::uint64_t samples = 0;
     for (std::size_t k = 0; k < piece.count; ++k) samples += samples_of(work[piece.first + k]);
+    be_patient(i);
     const auto start = RenderClock::now();
     tracer.trace(piece.first, piece.count, first_sample);
     tracer.finish();
@@ -42,6 +50,13 @@ void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::Til
     // Small launches are dominated by overhead and must not make the next ones smaller still.
     tracer.pace = std::max(0.5 * (tracer.pace + rate), rate);
     busy_[i] += took, samples_[i] += samples;
+    longest_[i] = std::max(longest_[i], took);
+}
+
+void Launcher::be_patient(std::size_t i) {
+    if (tracers_.size() == 1) return;
+    const double measured = times_the_longest * longest_[i];
+    tracers_[i]->device().set_patience(std::max(measured, longest_[i] > 0 ? least_patience : first_patience));
 }
 
 void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders) {

@@ -1,5 +1,6 @@
 #pragma once
 /// Launches of a list of work, on every tracer at once, that are neither long nor short.
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -18,7 +19,11 @@ class Launcher {
   public:
     /// `set_pixels`: of each set of the film. Both must live as long.
     Launcher(Tracers& tracers, const std::vector<std::uint32_t>& set_pixels)
-        : tracers_(tracers), set_pixels_(set_pixels), busy_(tracers.size()), samples_(tracers.size()) {}
+        : tracers_(tracers),
+          set_pixels_(set_pixels),
+          busy_(tracers.size()),
+          longest_(tracers.size()),
+          samples_(tracers.size()) {}
 
     /// Samples that all tracers trace in a second; 0: nothing was measured yet.
     double pace() const;
@@ -51,7 +56,13 @@ class Launcher {
     /// Throws what the last one threw when none is left.
     void require_one() const;
 
-    void add_busy(std::size_t tracer, double seconds) { busy_[tracer] += seconds; }
+    /// Of other work of a tracer.
+    void add_busy(std::size_t tracer, double seconds) {
+        busy_[tracer] += seconds;
+        longest_[tracer] = std::max(longest_[tracer], seconds);
+    }
+    /// Where there are several tracers, from here on this one's device is given up when it hangs.
+    void be_patient(std::size_t tracer);
     /// Seconds that a tracer worked, and samples that it took, so far.
     double busy_seconds(std::size_t tracer) const { return busy_[tracer]; }
     std::uint64_t samples(std::size_t tracer) const { return samples_[tracer]; }
@@ -60,7 +71,7 @@ class Launcher {
   private:
     Tracers& tracers_;
     const std::vector<std::uint32_t>& set_pixels_;
-    std::vector<double> busy_;
+    std::vector<double> busy_, longest_;  ///< longest_: of a launch
     std::vector<std::uint64_t> samples_;
     std::mutex mutex_;
     std::exception_ptr last_failure_;

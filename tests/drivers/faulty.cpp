@@ -1,8 +1,9 @@
 // A library to be loaded before OpenCL's (LD_PRELOAD): every call that Triad makes goes through it to the
 // real one, and one of them fails on command. TRIAD_FAULT is "CONTEXT CALL N CODE once|ever": of the
-// CONTEXT-th context that the process creates (from 0), the N-th CALL (from 1; "any" counts all together)
-// returns CODE, or that and all later calls of that context do; CONTEXT -2 is every one, each with counts of
-// its own. TRIAD_FAULT_COUNTS names a file that gets "CONTEXT CALL COUNT" lines when the process ends.
+// CONTEXT-th context that the process creates (from 0; -2: of every one, each with counts of its own), the
+// N-th CALL (from 1; "any" counts all together) returns CODE, or that and all later calls of that context do.
+// A CODE of 1 is a call that succeeds and does nothing: of clSetEventCallback, a device that never answers.
+// TRIAD_FAULT_COUNTS names a file that gets "CONTEXT CALL COUNT" lines when the process ends.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <dlfcn.h>
@@ -85,10 +86,11 @@ F* real(const char* name) {
 }  // namespace
 
 // A call whose first argument is of a context and which returns a code.
-#define PASS(NAME, PARAMETERS, ...)                                                   \
-    extern "C" cl_int NAME PARAMETERS {                                               \
-        if (const cl_int code = fails(#NAME, first); code != CL_SUCCESS) return code; \
-        return real<cl_int PARAMETERS>(#NAME)(__VA_ARGS__);                           \
+#define PASS(NAME, PARAMETERS, ...)                                      \
+    extern "C" cl_int NAME PARAMETERS {                                  \
+        if (const cl_int code = fails(#NAME, first); code != CL_SUCCESS) \
+            return code > 0 ? CL_SUCCESS : code;                         \
+        return real<cl_int PARAMETERS>(#NAME)(__VA_ARGS__);              \
     }
 // One that makes something of it.
 #define MAKE(TYPE, NAME, PARAMETERS, ...)                                      \
@@ -166,3 +168,15 @@ PASS(clEnqueueFillBuffer,
       size_t size, cl_uint count, const cl_event* events, cl_event* event),
      first, buffer, pattern, pattern_size, offset, size, count, events, event)
 PASS(clFinish, (cl_command_queue first), first)
+PASS(clFlush, (cl_command_queue first), first)
+PASS(clSetEventCallback, (cl_event first, cl_int status, void (*notify)(cl_event, cl_int, void*), void* data),
+     first, status, notify, data)
+
+extern "C" cl_int clEnqueueMarkerWithWaitList(cl_command_queue queue, cl_uint count, const cl_event* events,
+                                              cl_event* event) {
+    if (const cl_int code = fails("clEnqueueMarkerWithWaitList", queue); code != CL_SUCCESS) return code;
+    const cl_int code = real<decltype(clEnqueueMarkerWithWaitList)>("clEnqueueMarkerWithWaitList")(
+        queue, count, events, event);
+    if (code == CL_SUCCESS && event) made(*event, queue);
+    return code;
+}

@@ -73,6 +73,19 @@ TEST(DeviceFaults, every_call_of_one_of_two_devices_may_fail_and_the_picture_is_
     EXPECT_GT(told, int(calls.size()));
 }
 
+TEST(DeviceFaults, a_device_that_never_answers_is_given_up) {
+    const std::string device = halves();
+    if (device.empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    const TemporaryFolder folder;
+    const std::string options = "render --size 64x48 --spp 60" + device + " --film ";
+    const fs::path whole = folder / "whole.film", film = folder / "a.film";
+    ASSERT_EQ(run_triad(options + whole.string()).exit, 0);
+    const Outcome outcome = run_faulty(options + film.string(), "1 clSetEventCallback 3 1 ever");
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    EXPECT_NE(outcome.output.find("has not answered for 10 s"), std::string::npos) << outcome.output;
+    EXPECT_TRUE(bytes_of(film) == bytes_of(whole)) << outcome.output;
+}
+
 TEST(DeviceFaults, with_photons_whole_samples_are_done_again) {
     const std::string device = halves();
     if (device.empty()) GTEST_SKIP() << "there is no CPU device of several cores";
