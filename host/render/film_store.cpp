@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/error.h"
 #include "base/hash.h"
 #include "kernels/types.h"
 
@@ -46,11 +47,39 @@ const Film& FilmStore::gather(const Tracers& tracers) {
     return film_;
 }
 
-void FilmStore::deliver(Tracer& tracer) {
+namespace {
+
+/// Of the samples of a device: a scene may bring some, but a device that computes so many computes nothing
+/// right.
+constexpr double most_not_finite = 0.1;
+
+/// Throws where a part is not what was asked for, or is no picture.
+void require_sane(const Film& part, const SetSamples& expected, const DeviceInfo& device) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(Exit::device, "The device " + device.name + " " + what + ".");
+    };
+    const std::size_t across = (part.width + FILM_TILE - 1) / FILM_TILE;
+    std::uint64_t samples = 0;
+    for (std::size_t y = 0; y < part.height; ++y)
+        for (std::size_t x = 0; x < part.width; ++x) {
+            const std::uint32_t n = part.samples[y * part.width + x];
+            if (n != expected[2 * (y / FILM_TILE * across + x / FILM_TILE) + ((x ^ y) & 1)])
+                refuse("did not take the samples that it was to take");
+            samples += n;
+        }
+    if (double(part.counters[COUNTER_NOT_FINITE]) > most_not_finite * double(samples))
+        refuse("computed samples that are no numbers: " + std::to_string(part.counters[COUNTER_NOT_FINITE]) +
+               " of " + std::to_string(samples));
+}
+
+}  // namespace
+
+void FilmStore::deliver(Tracer& tracer, const SetSamples& expected) {
     Film part;
     part.width = film_.width, part.height = film_.height;
     part.bins_x = film_.bins_x, part.bins_y = film_.bins_y;
     tracer.part().add_to(part);
+    require_sane(part, expected, tracer.device().info());
     if (film_.sums.empty()) {
         film_.sums = std::move(part.sums), film_.half_sums = std::move(part.half_sums);
         film_.samples = std::move(part.samples);

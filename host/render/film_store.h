@@ -8,6 +8,7 @@
 
 #include "pack/pack.h"
 #include "scene/film.h"
+#include "scene/film_sets.h"
 #include "trace/tracer.h"
 
 namespace triad {
@@ -33,9 +34,9 @@ class FilmStore {
     void set_progress(std::optional<FilmProgress> progress) { film_.progress = std::move(progress); }
     /// Reads the parts into the arrays, which are then what all tracers have found so far.
     const Film& gather(const Tracers& tracers);
-    /// Adds what a tracer's part holds to the arrays. Throws where it cannot be read, and has then added
-    /// nothing.
-    void deliver(Tracer& tracer);
+    /// Adds what a tracer's part holds to the arrays. Throws where it cannot be read or is not what the
+    /// tracer was to take, of each set, and has then added nothing.
+    void deliver(Tracer& tracer, const SetSamples& expected);
     /// The arrays begin as those of a film that goes on.
     void begin_with(const Film& film);
     /// Tiles of the crop lose their samples.

@@ -19,7 +19,7 @@ void RenderLoop::gather() {
     do {
         for (std::size_t i = 0; i < s_.tracers.size(); ++i) {
             launcher_.attempt(i, [this](std::size_t tracer) {
-                s_.store.deliver(*s_.tracers[tracer]);
+                s_.store.deliver(*s_.tracers[tracer], undelivered_[tracer].samples(have_.size()));
                 undelivered_[tracer].clear();
                 s_.tracers[tracer]->empty();
             });

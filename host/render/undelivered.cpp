@@ -34,6 +34,16 @@ void Undelivered::clear() {
     std::fill(latest_.begin(), latest_.end(), 0);
 }
 
+SetSamples Undelivered::samples(std::size_t sets) const {
+    SetSamples samples(sets);
+    for (const dev::TileWork& w : tiles_)
+        for (std::size_t set = 0; set < 2; ++set) samples[2 * w.tile + set] += w.sample_count[set];
+    for (const PhotonSample& each : samples_)
+        for (const dev::TileWork& w : *each.work)
+            for (std::size_t set = 0; set < 2; ++set) samples[2 * w.tile + set] += w.sample_count[set];
+    return samples;
+}
+
 std::vector<LostWork> Undelivered::take() {
     std::vector<LostWork> lost;
     if (!tiles_.empty()) lost.push_back({tiles_, {}});

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/types.h"
+#include "scene/film_sets.h"
 
 namespace triad {
 
@@ -27,6 +28,8 @@ class Undelivered {
     /// A whole sample with photons.
     void add_sample(std::shared_ptr<const TileWorks> work, std::uint32_t sample);
     void clear();
+    /// How many samples of each of so many sets.
+    SetSamples samples(std::size_t sets) const;
     /// All of it, and clears.
     std::vector<LostWork> take();
 

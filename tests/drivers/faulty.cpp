@@ -2,14 +2,16 @@
 // real one, and one of them fails on command. TRIAD_FAULT is "CONTEXT CALL N CODE once|ever": of the
 // CONTEXT-th context that the process creates (from 0; -2: of every one, each with counts of its own), the
 // N-th CALL (from 1; "any" counts all together) returns CODE, or that and all later calls of that context do.
-// A CODE of 1 is a call that succeeds and does nothing: of clSetEventCallback, a device that never answers.
-// TRIAD_FAULT_COUNTS names a file that gets "CONTEXT CALL COUNT" lines when the process ends.
+// A CODE of 1 is a call that succeeds and does nothing: of clSetEventCallback, a device that never answers;
+// of clEnqueueReadBuffer, one that brings garbage. TRIAD_FAULT_COUNTS names a file that gets "CONTEXT CALL
+// COUNT" lines when the process ends.
 #define CL_TARGET_OPENCL_VERSION 120
 #include <CL/cl.h>
 #include <dlfcn.h>
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <set>
@@ -159,10 +161,16 @@ PASS(clEnqueueWriteBuffer,
      (cl_command_queue first, cl_mem buffer, cl_bool wait, size_t offset, size_t size, const void* data,
       cl_uint count, const cl_event* events, cl_event* event),
      first, buffer, wait, offset, size, data, count, events, event)
-PASS(clEnqueueReadBuffer,
-     (cl_command_queue first, cl_mem buffer, cl_bool wait, size_t offset, size_t size, void* data,
-      cl_uint count, const cl_event* events, cl_event* event),
-     first, buffer, wait, offset, size, data, count, events, event)
+extern "C" cl_int clEnqueueReadBuffer(cl_command_queue queue, cl_mem buffer, cl_bool wait, size_t offset,
+                                      size_t size, void* data, cl_uint count, const cl_event* events,
+                                      cl_event* event) {
+    const cl_int failed = fails("clEnqueueReadBuffer", queue);
+    if (failed < 0) return failed;
+    const cl_int code = real<decltype(clEnqueueReadBuffer)>("clEnqueueReadBuffer")(
+        queue, buffer, wait, offset, size, data, count, events, event);
+    if (failed > 0) std::memset(data, 0x7f, size);
+    return code;
+}
 PASS(clEnqueueFillBuffer,
      (cl_command_queue first, cl_mem buffer, const void* pattern, size_t pattern_size, size_t offset,
       size_t size, cl_uint count, const cl_event* events, cl_event* event),

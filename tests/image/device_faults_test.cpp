@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -84,6 +85,26 @@ TEST(DeviceFaults, a_device_that_never_answers_is_given_up) {
     EXPECT_EQ(outcome.exit, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("has not answered for 10 s"), std::string::npos) << outcome.output;
     EXPECT_TRUE(bytes_of(film) == bytes_of(whole)) << outcome.output;
+}
+
+TEST(DeviceFaults, a_device_that_brings_garbage_is_given_up) {
+    const std::string device = halves();
+    if (device.empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    const TemporaryFolder folder;
+    const std::string options = "render --size 64x48 --spp 60 --checkpoint 0.05" + device + " --film ";
+    const fs::path whole = folder / "whole.film", film = folder / "a.film";
+    ASSERT_EQ(run_triad(options + whole.string()).exit, 0);
+    // Sums, half sums, samples and counters are read, each time.
+    for (const auto& [n, how, words] : {std::tuple("3", "once", "did not take the samples"),
+                                        {"4", "once", "no numbers"},
+                                        {"7", "once", "did not take the samples"}}) {
+        fs::remove(film);
+        const Outcome outcome =
+            run_faulty(options + film.string(), "1 clEnqueueReadBuffer " + std::string(n) + " 1 " + how);
+        EXPECT_EQ(outcome.exit, 0) << outcome.output;
+        EXPECT_NE(outcome.output.find(words), std::string::npos) << n << how << outcome.output;
+        EXPECT_TRUE(bytes_of(film) == bytes_of(whole)) << outcome.output;
+    }
 }
 
 TEST(DeviceFaults, with_photons_whole_samples_are_done_again) {
