@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "cli/output_options.h"
 #include "cli/reconstruct_options.h"
 #include "scene/limits.h"
@@ -18,35 +19,6 @@ const char* const view_group = "View";
 const char* const light_group = "Light and background";
 const char* const output_group = "Output";
 const char* const machine_group = "Machine";
-
-/// An option whose text `assign` parses; a bad text is an Error(usage) that names the option.
-CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& form,
-                        const std::string& help, std::function<void(const std::string&)> assign) {
-    return command.add_option_function<std::string>(name, std::move(assign), help)->type_name(form);
-}
-
-/// One of some words, in the order of the sentence that lists them.
-template <class T, class Value>
-CLI::Option* add_choice(CLI::App& command, const std::string& name, const std::string& form,
-                        const std::string& help, const std::vector<std::pair<std::string, T>>& choices,
-                        Value& value) {
-    return add_parsed(command, name, form, help, [&value, name, choices](const std::string& text) {
-        std::string words;
-        for (std::size_t i = 0; i < choices.size(); ++i) {
-            if (choices[i].first == text) {
-                value = choices[i].second;
-                return;
-            }
-            words += (i == 0 ? "" : i + 1 == choices.size() ? " or " : ", ") + choices[i].first;
-        }
-        throw Error(Exit::usage, name + " " + text + ": " + words + ".");
-    });
-}
-
-template <class Bool>
-CLI::Option* add_switch(CLI::App& command, const std::string& name, const std::string& help, Bool& value) {
-    return add_choice<bool>(command, name, "on|off", help, {{"on", true}, {"off", false}}, value);
-}
 
 void declare_goals(CLI::App& command, RenderRequest& o) {
     command

@@ -2,11 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <queue>
+#include <memory>
 #include <random>
 #include <vector>
 
 #include "base/error.h"
+#include "render/undelivered.h"
 #include "render/work_share.h"
 #include "scene/film.h"
 #include "scene/sample_shares.h"
@@ -95,6 +96,43 @@ TEST(SampleShares, come_back_as_they_were) {
     for (const std::size_t cut : {1u, 3u, 11u})
         sentence_of(Exit::scene, [&] { SampleShares::unpacked(std::span(packed).first(cut), 5); });
     sentence_of(Exit::scene, [&] { SampleShares::unpacked(packed, 4); });
+}
+
+TEST(SampleShares, samples_change_hands_and_are_cut) {
+    SampleShares shares(1);
+    shares.add(0, 0, 10), shares.add(0, 1, 10);
+    shares.set(0, 4, 3, 2);
+    EXPECT_EQ(shares.of(0), (std::vector<SampleShares::Run>{{0, 4}, {2, 3}, {0, 3}, {1, 10}}));
+    shares.set(0, 5, 9, 1);
+    EXPECT_EQ(shares.of(0), (std::vector<SampleShares::Run>{{0, 4}, {2, 1}, {1, 15}}));
+    shares.cut(0, 7);
+    EXPECT_EQ(shares.of(0), (std::vector<SampleShares::Run>{{0, 4}, {2, 1}, {1, 2}}));
+    shares.cut(0, 0);
+    EXPECT_TRUE(shares.of(0).empty());
+}
+
+TEST(Undelivered, work_that_follows_is_joined_and_all_of_it_is_lost_at_once) {
+    Undelivered rest(4);
+    rest.add({2, {0, 0}, {3, 3}, {}});
+    rest.add({2, {3, 3}, {2, 0}, {}});  // adaptive: one set alone
+    rest.add({2, {5, 3}, {1, 4}, {}});
+    rest.add({2, {9, 7}, {1, 1}, {}});  // another device had the samples between
+    rest.add({0, {0, 0}, {1, 1}, {}});
+    EXPECT_EQ(rest.samples(8), (SetSamples{1, 1, 0, 0, 7, 8, 0, 0}));
+    const auto work = std::make_shared<const TileWorks>(TileWorks{{1, {4, 4}, {1, 1}, {}}});
+    rest.add_sample(work, 2);
+    const std::vector<LostWork> lost = rest.take();
+    ASSERT_EQ(lost.size(), 2u);
+    ASSERT_EQ(lost[0].work.size(), 3u);
+    EXPECT_FALSE(lost[0].photon_sample.has_value());
+    const dev::TileWork& joined = lost[0].work[0];
+    EXPECT_EQ(joined.tile, 2u);
+    EXPECT_EQ(joined.first_sample[0], 0u);
+    EXPECT_EQ(joined.sample_count[0], 6u);
+    EXPECT_EQ(joined.sample_count[1], 7u);
+    EXPECT_EQ(lost[1].photon_sample, 2u);
+    EXPECT_EQ(lost[1].work[0].tile, 1u);
+    EXPECT_TRUE(rest.take().empty());
 }
 
 TEST(Devices, drivers_of_one_piece_of_hardware_are_found) {
