@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -36,7 +37,10 @@ void parallel_for(std::size_t count, std::size_t grain,
         }
     };
     std::vector<std::jthread> threads;
-    for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
+    try {
+        for (std::size_t i = 1; i < workers; ++i) threads.emplace_back(work);
+    } catch (const std::system_error&) {  // a limit of the shell: fewer threads do all the same
+    }
     work();
     threads.clear();
     if (failure) std::rethrow_exception(failure);

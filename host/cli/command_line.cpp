@@ -1,12 +1,15 @@
 #include "cli/command_line.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "base/colour.h"
 #include "base/log.h"
+#include "base/memory_limit.h"
 #include "bvh/bvh.h"
 #include "scene/limits.h"
 #include "trace/path_driver.h"
@@ -62,6 +65,12 @@ void add_common(CLI::App& command) {
         "-q,--quiet", [] { set_log_level(0); }, "Errors only");
     command.add_flag_callback(
         "-v,--verbose", [] { set_log_level(2); }, "Say more");
+    command
+        .add_option_function<std::string>(
+            "--max-memory",
+            [](const std::string& text) { set_memory_limit(parse_bytes("--max-memory", text)); },
+            "Take no more than this on host and devices together, like 4G (default: half of the machine's)")
+        ->type_name("SIZE");
 }
 
 CLI::Validator number_within(double lo, double hi) {
@@ -94,6 +103,19 @@ SampleRange parse_range(const std::string& option, const std::string& value) {
                          : number<std::uint64_t>(std::string_view(value).substr(colon + 1));
     if (!begin || !end || *begin >= *end) bad(option, value, "A:B with A below B, like 0:64");
     return {*begin, *end};
+}
+
+std::uint64_t parse_bytes(const std::string& option, const std::string& value) {
+    const std::string units = "KMGT";
+    const std::size_t end = value.find_first_not_of("0123456789.");
+    const auto size = number<double>(std::string_view(value).substr(0, end));
+    std::string unit = end == std::string::npos ? "" : value.substr(end);
+    const std::size_t power = unit.empty() ? 0 : units.find(char(std::toupper(unit[0]))) + 1;
+    const bool is_unit =
+        unit.empty() || (power > 0 && (unit.size() == 1 || unit.substr(1) == "B" || unit.substr(1) == "iB"));
+    if (!size || !is_unit || *size <= 0 || *size * std::pow(1024.0, double(power)) > 1e18)
+        bad(option, value, "a size like 512M or 4G");
+    return std::uint64_t(*size * std::pow(1024.0, double(power)));
 }
 
 std::array<unsigned, 2> parse_share(const std::string& option, const std::string& value) {

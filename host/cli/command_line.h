@@ -2,6 +2,7 @@
 /// What the subcommands share on the command line. Bad values throw Error(usage) that names option and value.
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -30,7 +31,7 @@ void add_bench(CLI::App& app, Exit& exit);
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);
 /// --driver.
 CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver);
-/// -q and -v.
+/// -q, -v and --max-memory.
 void add_common(CLI::App& command);
 
 /// For options: a number from lo to hi. (CLI11's own ranges take "nan" for one within.)
@@ -40,6 +41,8 @@ CLI::Validator number_within(double lo, double hi);
 uvec2 parse_size(const std::string& option, const std::string& value);
 /// "A:B", half-open, A < B.
 SampleRange parse_range(const std::string& option, const std::string& value);
+/// "512M", "4G", "1.5T": powers of 1024.
+std::uint64_t parse_bytes(const std::string& option, const std::string& value);
 /// "share:I/K", I from 0 and below K.
 std::array<unsigned, 2> parse_share(const std::string& option, const std::string& value);
 /// Exactly `count` finite numbers with commas between.

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string>
 
+#include "base/memory_limit.h"
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "device/device.h"
@@ -79,9 +81,12 @@ int run_and_tell(int argc, char** argv) {
         return run(argc, argv);
     } catch (const Error& error) {
         return complain(static_cast<int>(error.exit()), error.what());
-    } catch (const std::bad_alloc&) {
+    } catch (const std::bad_alloc& error) {
+        const std::string said = error.what();
         return complain(static_cast<int>(Exit::memory),
-                        "There is not enough memory for this scene or picture.");
+                        said.find(' ') == std::string::npos
+                            ? "There is not enough memory for this scene or picture."
+                            : said);
     } catch (const std::filesystem::filesystem_error& error) {
         return complain(static_cast<int>(Exit::scene), error.what());
     } catch (const std::exception& error) {
@@ -95,6 +100,7 @@ int main(int argc, char** argv) {
     survive_drivers(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
     std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
+    set_memory_limit(available_memory() / 2);
     const int exit = run_and_tell(argc, argv);
     if (!any_device_hangs()) return exit;
     std::cout.flush(), std::fflush(nullptr);

@@ -14,8 +14,11 @@ namespace {
 
 /// What the next run may do otherwise.
 const std::vector<std::string> of_this_run{
-    "--help",    "--output", "--film",   "--resume", "--checkpoint", "--json", "--progress", "--device",
-    "--threads", "--format", "--driver", "--force",  "--kernels",    "--aov",  "--quiet",    "--verbose"};
+    "--help",     "--output", "--film",    "--resume",  "--checkpoint", "--json",
+    "--progress", "--device", "--threads", "--format",  "--driver",     "--force",
+    "--kernels",  "--aov",    "--quiet",   "--verbose", "--max-memory"};
+/// Of every command: not among those that declare() makes.
+const std::vector<std::string> common{"--help", "--quiet", "--verbose", "--max-memory"};
 /// What ends a render: a film may go on to another.
 const std::vector<std::string> goals{"--spp", "--error", "--time", "--samples"};
 
@@ -94,10 +97,9 @@ std::vector<std::string> words_of_picture(const CLI::App& command) {
 RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::string& nothing_to_do) {
     const std::string& path = given.resume_path;
     const Film film = load_film_header(path);
-    const Words said = words_of_picture(command),
-                run = words_of(command, [](const std::string&name) {
-                    return is_in(of_this_run, name) && name != "--quiet" && name != "--verbose";
-                });
+    const Words said = words_of_picture(command), run = words_of(command, [](const std::string&name) {
+                                                      return is_in(of_this_run, name) && !is_in(common, name);
+                                                  });
     const bool has_goal = std::any_of(said.begin(), said.end(),
                                       [](const std::string& word) { return is_in(goals, name_in(word)); });
     if (!has_goal && (!film.progress || film.progress->ended)) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstring>
 
+#include "base/memory_limit.h"
 #include "device/opencl.h"
 
 namespace triad {
@@ -120,10 +121,13 @@ cl_mem create_buffer(DeviceState& state, std::size_t bytes, cl_mem_flags flags, 
     // Drivers need not refuse more than the largest piece, so ask no driver.
     if (info.max_allocation > 0 && bytes > info.max_allocation)
         core.check("clCreateBuffer", CL_INVALID_BUFFER_SIZE, where);
+    const bool is_new = !(flags & CL_MEM_USE_HOST_PTR);
+    if (is_new) require_memory(bytes, "A buffer of the device " + info.name);
     cl_int code = CL_SUCCESS;
     const cl_mem memory = clCreateBuffer(state.cl(), flags, bytes, const_cast<void*>(data), &code);
     core.check("clCreateBuffer", code, where);
     core.allocated += bytes;
+    if (is_new) count_memory(std::int64_t(bytes));
     return memory;
 }
 
@@ -134,21 +138,22 @@ Buffer Device::allocate(std::size_t bytes, const void* data) {
     if (bytes == 0) return {};
     const cl_mem memory =
         opencl::create_buffer(*state_, bytes, CL_MEM_READ_WRITE | (data ? CL_MEM_COPY_HOST_PTR : 0), data);
-    return hold(memory, bytes, {});
+    return hold(memory, bytes, {}, true);
 }
 
 Buffer Device::share(std::size_t bytes, const void* data, std::shared_ptr<const void> owner) {
     const bool in_place = info().host_memory;
     const cl_mem memory = opencl::create_buffer(
         *state_, bytes, CL_MEM_READ_ONLY | (in_place ? CL_MEM_USE_HOST_PTR : CL_MEM_COPY_HOST_PTR), data);
-    return hold(memory, bytes, in_place ? std::move(owner) : nullptr);
+    return hold(memory, bytes, in_place ? std::move(owner) : nullptr, !in_place);
 }
 
-Buffer Device::hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner) {
+Buffer Device::hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner, bool is_new) {
     Buffer buffer;
     buffer.bytes_ = bytes;
-    buffer.handle_ = {memory, [core = state_->core, bytes, owner = std::move(owner)](void* object) {
+    buffer.handle_ = {memory, [core = state_->core, bytes, is_new, owner = std::move(owner)](void* object) {
                           core->allocated -= bytes;
+                          if (is_new) count_memory(-std::int64_t(bytes));
                           if (!core->lost)
                               clReleaseMemObject(static_cast<cl_mem>(object));
                           else  // a kernel that hangs may still read it: never freed

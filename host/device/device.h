@@ -252,7 +252,8 @@ class Device {
 
   private:
     Buffer share(std::size_t bytes, const void* data, std::shared_ptr<const void> owner);
-    Buffer hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner);
+    /// `is_new`: memory that nobody had before.
+    Buffer hold(void* memory, std::size_t bytes, std::shared_ptr<const void> owner, bool is_new);
     explicit Device(std::shared_ptr<opencl::DeviceState> state) : state_(std::move(state)) {}
     std::shared_ptr<opencl::DeviceState> state_;
 };

@@ -1,7 +1,9 @@
 /// PNG, JPEG and WebP bytes to RGBA texels.
 #include <algorithm>
+#include <cstdint>
 
 #include "base/error.h"
+#include "base/memory_limit.h"
 #include "io/image_container.h"
 #include "io/io.h"
 #include "io/oiio.h"
@@ -43,6 +45,7 @@ Image decode_image(const std::string& name, const std::vector<std::uint8_t>& byt
     const char* format = clean.format == ImageFormat::png    ? "png"
                          : clean.format == ImageFormat::jpeg ? "jpeg"
                                                              : "webp";
+    require_memory(std::uint64_t(clean.width) * clean.height * 4, "Image " + name);
     oiio::Input input(name, format, clean.bytes);
     const OIIO::ImageSpec& spec = input.spec();
     if (unsigned(spec.width) != clean.width || unsigned(spec.height) != clean.height || spec.nchannels > 4)

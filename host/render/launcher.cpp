@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <system_error>
 #include <thread>
 
 #include "base/error.h"
@@ -106,18 +107,24 @@ void Launcher::require_one() const {
 void Launcher::on_every_tracer(const std::function<void(std::size_t)>& work) {
     if (tracers_.size() == 1) return work(0);
     std::exception_ptr defect;  // of the program, not of a device
+    const auto on = [&](std::size_t i) {
+        try {
+            attempt(i, work);
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            defect = std::current_exception();
+        }
+    };
     {
         std::vector<std::jthread> threads;
-        for (std::size_t i = 0; i < tracers_.size(); ++i)
-            if (is_alive(i))
-                threads.emplace_back([&, i] {
-                    try {
-                        attempt(i, work);
-                    } catch (...) {
-                        const std::lock_guard lock(mutex_);
-                        defect = std::current_exception();
-                    }
-                });
+        std::size_t i = 0;
+        try {
+            for (; i < tracers_.size(); ++i)
+                if (is_alive(i)) threads.emplace_back(on, i);
+        } catch (
+            const std::system_error&) {  // a limit of the shell: the rest in this one, one after the other
+            for (; i < tracers_.size(); ++i) on(i);
+        }
     }
     if (defect) std::rethrow_exception(defect);
     require_one();

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/memory_limit.h"
 #include "render/photon_pilot.h"
 #include "render/renderer_state.h"
 #include "trace/node_format.h"
@@ -26,6 +27,14 @@ void check(const RenderSettings& s) {
                std::to_string(s.height) + " pixels.");
     if (std::uint64_t(s.width) * s.height > 0xffffffffull)
         refuse("The picture has more than 2^32 pixels; render crops of it.");
+}
+
+/// On the host and on every device.
+void require_film_memory(const RenderSettings& s, std::size_t devices) {
+    const std::uint64_t pixels =
+        s.crop[2] ? std::uint64_t(s.crop[2]) * s.crop[3] : std::uint64_t(s.width) * s.height;
+    require_memory(pixels * (32 * s.bins_x * s.bins_y + 28) * (devices + 1),
+                   "The film of " + std::to_string(pixels) + " pixels");
 }
 
 /// What work() returns, and how long it took.
@@ -132,6 +141,7 @@ Renderer::Renderer(Device& device, const Scene& scene, const RenderSettings& set
 Renderer::Renderer(const std::vector<Device*>& devices, const Scene& scene, const RenderSettings& settings,
                    const std::optional<Features>& features) {
     check(settings);
+    require_film_memory(settings, devices.size());
     const auto start = RenderClock::now();
     const DeviceScenes scenes = scene_on(devices, scene, settings);
     const double build_seconds = seconds_since(start);

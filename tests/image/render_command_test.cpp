@@ -94,6 +94,15 @@ TEST(RenderCommand, films_are_merged_in_memory_for_a_few_rows) {
     EXPECT_EQ(load_film(folder / "m").samples[0], 8u);
 }
 
+TEST(RenderCommand, what_is_too_large_for_the_memory_is_said_before_it_is_taken) {
+    const Outcome film =
+        run_triad("render --max-memory 200M --size 3000x3000 --spp 1 -o /tmp/triad-none.png");
+    EXPECT_EQ(film.exit, 4) << film.output;
+    EXPECT_NE(film.output.find("The film of 9000000 pixels needs"), std::string::npos) << film.output;
+    EXPECT_EQ(run_triad("render --max-memory 2G --size 30x30 --spp 1 -q -o /tmp/triad-none.png").exit, 0);
+    fs::remove("/tmp/triad-none.png");
+}
+
 TEST(RenderCommand, an_interrupt_finishes_the_pass_and_saves) {
     const TemporaryFolder folder;
     const fs::path picture = folder / "a.exr", film = folder / "a.film";

@@ -42,6 +42,11 @@ TEST(CommandLine, bad_values_are_named) {
     expect("render --background '#12345g'", 1, "#12345g");
     expect("render --tonemap filmic", 1, "filmic");
     expect("render --spp none", 1, "none");
+    expect("render --max-memory 4X", 1, "--max-memory 4X");
+    expect("render --max-memory 0", 1, "--max-memory 0");
+    expect("render --samples share:2/2 --spp 4", 1, "share:2/2");
+    expect("render --samples share:0/2", 1, "--spp N");
+    expect("render --checkpoint 5", 1, "--film");
     expect("render --crop 0,0,0,5", 1, "--crop");
     expect("render --error 0", 1, "--error");
     expect("render --time -1", 1, "--time");
