@@ -1,11 +1,14 @@
 #include "display/perceived_noise.h"
 
+#include <utility>
+
 #include "panel/perceived.h"
 
 namespace triad {
 
-PerceivedNoise::PerceivedNoise(Device& device, const Panel& panel, double ppd, const DisplaySettings& display)
-    : device_(device), panel_(panel), ppd_(ppd), display_(display) {
+PerceivedNoise::PerceivedNoise(CurrentDevice device, const Panel& panel, double ppd,
+                               const DisplaySettings& display)
+    : device_(std::move(device)), panel_(panel), ppd_(ppd), display_(display) {
     display_.alpha = false;
     display_.taps.reset();
     display_.refine.reset();
@@ -18,7 +21,7 @@ std::optional<double> PerceivedNoise::of(const Film& film) const {
         BinImage image{film.width, film.height, 1, 1, std::vector<float>(film.pixels() * 4, 1.0f)};
         for (std::size_t p = 0; p < film.pixels(); ++p)
             for (std::size_t c = 0; c < 3; ++c) image.rgba[p * 4 + c] = rgb[p * 3 + c];
-        return resolve_display(device_, image, display_);
+        return resolve_display(device_(), image, display_);
     };
     const std::vector<float> first = shown(halves->first), second = shown(halves->second);
     RgbImage noise{film.width, film.height, std::vector<float>(film.pixels() * 3)};

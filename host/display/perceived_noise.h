@@ -13,13 +13,15 @@ namespace triad {
 /// fringes, which more samples do not mend, are not in it. The film's bins count as one.
 class PerceivedNoise {
   public:
-    PerceivedNoise(Device& device, const Panel& panel, double ppd, const DisplaySettings& display);
+    PerceivedNoise(Device& device, const Panel& panel, double ppd, const DisplaySettings& display)
+        : PerceivedNoise([&device]() -> Device& { return device; }, panel, ppd, display) {}
+    PerceivedNoise(CurrentDevice device, const Panel& panel, double ppd, const DisplaySettings& display);
 
     /// None: not known yet, because a half has no samples. Throws DeviceError.
     std::optional<double> of(const Film& film) const;
 
   private:
-    Device& device_;
+    CurrentDevice device_;
     Panel panel_;
     double ppd_;
     DisplaySettings display_;

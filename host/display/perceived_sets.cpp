@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "kernels/types.h"
@@ -81,8 +82,8 @@ std::vector<double> tile_means(const Film& film, const std::vector<float>& map) 
 
 }  // namespace
 
-PerceivedSets::PerceivedSets(Device& device, const PanelView& panel, const DisplaySettings& display)
-    : device_(device), panel_(panel), display_(display) {
+PerceivedSets::PerceivedSets(CurrentDevice device, const PanelView& panel, const DisplaySettings& display)
+    : device_(std::move(device)), panel_(panel), display_(display) {
     display_.alpha = false;
     display_.taps.reset();
     display_.refine.reset();
@@ -92,15 +93,16 @@ SetErrors PerceivedSets::of(const Film& film, const SetSamples& have) {
     const std::vector<std::uint32_t> pixels = set_pixels(film.width, film.height);
     const std::size_t pairs = (film.width + 1) / 2;
     const bool first = had_.empty();
-    errors_.resize(have.size());
-    for (unsigned set = 0; set < 2; ++set) {
-        std::vector<float> now;
+    std::array<std::vector<float>, 2> shown;  // all of it before anything is remembered: a device may fail
+    for (unsigned set = 0; set < 2; ++set)
         for (unsigned y = 0; y < film.height; y += band_rows) {
             const std::vector<float> band = resolve_display(
-                device_, rows_of(film, set, y, std::min(y + band_rows, film.height)), display_);
-            now.insert(now.end(), band.begin(), band.end());
+                device_(), rows_of(film, set, y, std::min(y + band_rows, film.height)), display_);
+            shown[set].insert(shown[set].end(), band.begin(), band.end());
         }
-        std::swap(now, before_[set]);
+    errors_.resize(have.size());
+    for (unsigned set = 0; set < 2; ++set) {
+        const std::vector<float> now = std::exchange(before_[set], std::move(shown[set]));
         if (first) continue;
         RgbImage change{film.width, film.height, std::vector<float>(film.pixels() * 3)};
         for (std::size_t i = 0; i < change.rgb.size(); ++i) {
@@ -131,9 +133,9 @@ void PerceivedSets::go_on_from(const std::string& kept) {
     if (!rest.empty() || errors_.size() != had_.size() || before_[0].size() != before_[1].size()) refuse();
 }
 
-std::shared_ptr<SetErrorSource> perceived_sets(Device& device, const PanelView& panel,
+std::shared_ptr<SetErrorSource> perceived_sets(CurrentDevice device, const PanelView& panel,
                                                const DisplaySettings& display) {
-    return std::make_shared<PerceivedSets>(device, panel, display);
+    return std::make_shared<PerceivedSets>(std::move(device), panel, display);
 }
 
 }  // namespace triad

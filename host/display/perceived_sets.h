@@ -17,7 +17,9 @@ namespace triad {
 /// square: its squared error at 2 n.
 class PerceivedSets : public SetErrorSource {
   public:
-    PerceivedSets(Device& device, const PanelView& panel, const DisplaySettings& display);
+    PerceivedSets(Device& device, const PanelView& panel, const DisplaySettings& display)
+        : PerceivedSets([&device]() -> Device& { return device; }, panel, display) {}
+    PerceivedSets(CurrentDevice device, const PanelView& panel, const DisplaySettings& display);
 
     /// Throws DeviceError.
     SetErrors of(const Film& film, const SetSamples& have) override;
@@ -25,7 +27,7 @@ class PerceivedSets : public SetErrorSource {
     void go_on_from(const std::string& kept) override;
 
   private:
-    Device& device_;
+    CurrentDevice device_;
     PanelView panel_;
     DisplaySettings display_;
     std::array<std::vector<float>, 2> before_;  ///< what each set alone showed
@@ -34,7 +36,11 @@ class PerceivedSets : public SetErrorSource {
 };
 
 /// RenderGoal::set_errors of one render.
-std::shared_ptr<SetErrorSource> perceived_sets(Device& device, const PanelView& panel,
+std::shared_ptr<SetErrorSource> perceived_sets(CurrentDevice device, const PanelView& panel,
                                                const DisplaySettings& display);
+inline std::shared_ptr<SetErrorSource> perceived_sets(Device& device, const PanelView& panel,
+                                                      const DisplaySettings& display) {
+    return perceived_sets([&device]() -> Device& { return device; }, panel, display);
+}
 
 }  // namespace triad

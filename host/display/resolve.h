@@ -1,6 +1,7 @@
 #pragma once
 /// From the film to pixels that can be shown or saved.
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "scene/film.h"
 
 namespace triad {
+
+/// The device to use now: of several that work on a picture one may fail.
+using CurrentDevice = std::function<Device&()>;
 
 /// docs/film.md names the source of each curve.
 enum class ToneMap { none, khronos, aces, agx };

@@ -191,8 +191,10 @@ std::vector<SampleRange> RenderLoop::with_before(SampleRange range) const {
 /// What the film that was last read says about where samples should go.
 void RenderLoop::look() {
     name_ranges();
-    set_errors_ = goal_.set_errors ? goal_.set_errors->of(film(), have_)
-                                   : relmse_of_sets(film(), error_map(film(), Neighbours::own_set), have_);
+    if (goal_.set_errors)
+        with_a_device([this] { set_errors_ = goal_.set_errors->of(film(), have_); });
+    else
+        set_errors_ = relmse_of_sets(film(), error_map(film(), Neighbours::own_set), have_);
     has_looked_ = true;
     s_.store.set_ranges(ranges_before_);
 }
@@ -204,7 +206,7 @@ void RenderLoop::estimate(bool decides) {
     gather();
     rays_ = film().counters[COUNTER_RAYS];
     relmse_ = estimated_relmse(film());
-    if (goal_.perceived_noise) perceived_noise_ = goal_.perceived_noise(film());
+    if (goal_.perceived_noise) with_a_device([this] { perceived_noise_ = goal_.perceived_noise(film()); });
     if (relmse_ >= 0) {
         trend_.add(samples_before_ + samples(), relmse_);
         if (decides) {

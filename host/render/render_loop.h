@@ -98,6 +98,7 @@ class RenderLoop {
     // render_losses.cpp: what is delivered, and what devices took along that failed
     void gather();
     bool redo_lost();
+    void with_a_device(const std::function<void()>& work);
     void redo(const TileWorks& work);
     void redo_with_photons(const TileWorks& work, std::uint32_t sample);
     void recredit(const TileWorks& work, std::size_t tracer, WorkPiece piece,

@@ -53,6 +53,20 @@ bool RenderLoop::redo_lost() {
     }
 }
 
+/// What needs a device besides launches, the first that has not failed: where it fails at this, the next does
+/// it.
+void RenderLoop::with_a_device(const std::function<void()>& work) {
+    for (;;) {
+        try {
+            return work();
+        } catch (const DeviceError&) {
+            if (!is_shared()) throw;
+            s_.first_alive().failure = std::current_exception();
+            redo_lost();  // of what is read nothing is lost; throws when none is left
+        }
+    }
+}
+
 void RenderLoop::redo(const TileWorks& work) {
     launcher_.on_every_tracer([&](std::size_t i) { s_.tracers[i]->set_work(work); });
     WorkShare share = launcher_.share_of(work);

@@ -137,9 +137,10 @@ RenderSession::RenderSession(RenderRequest request)
     const auto& panel = request_.style.reconstruction.panel;
     if (!panel || request_.pixel) return;
     const DisplaySettings display = display_settings(request_.style, false);
-    goal_.perceived_noise = [noise = PerceivedNoise(devices_.front(), panel->panel, panel->ppd, display)](
+    const CurrentDevice device = [this]() -> Device& { return renderer_->device(); };
+    goal_.perceived_noise = [noise = PerceivedNoise(device, panel->panel, panel->ppd, display)](
                                 const Film& film) { return noise.of(film); };
-    if (goal_.error == 0) goal_.set_errors = perceived_sets(devices_.front(), *panel, display);
+    if (goal_.error == 0) goal_.set_errors = perceived_sets(device, *panel, display);
 }
 
 /// What is damaged of the film is rendered again.

@@ -33,15 +33,15 @@ Outcome run_faulty(const std::string& arguments, const std::string& fault, const
     return run_triad(arguments, more + " TRIAD_FAULT='" + fault + "' LD_PRELOAD='" TRIAD_FAULTY "'");
 }
 
-/// Calls of the second half, from its context's creation to the end of a render.
-std::map<std::string, long> calls_of(const std::string& arguments, const fs::path& counts) {
+/// Calls of the second half, or that of `of`, from its context's creation to the end of a render.
+std::map<std::string, long> calls_of(const std::string& arguments, const fs::path& counts, long of = 1) {
     const Outcome outcome = run_faulty(arguments, "", "TRIAD_FAULT_COUNTS='" + counts.string() + "'");
     EXPECT_EQ(outcome.exit, 0) << outcome.output;
     std::map<std::string, long> calls;
     std::ifstream file(counts);
     long context, count;
     for (std::string call; file >> context >> call >> count;)
-        if (context == 1) calls[call] = count;
+        if (context == of) calls[call] = count;
     return calls;
 }
 
@@ -122,6 +122,26 @@ TEST(DeviceFaults, with_photons_whole_samples_are_done_again) {
         fs::remove(film);
         const std::string fault =
             "1 any " + std::to_string(long(part * double(calls.at("any")))) + " -5 ever";
+        const Outcome outcome = run_faulty(options + film.string(), fault);
+        EXPECT_EQ(outcome.exit, 0) << fault << "\n" << outcome.output;
+        EXPECT_TRUE(bytes_of(film) == bytes_of(whole)) << fault << "\n" << outcome.output;
+    }
+}
+
+TEST(DeviceFaults, the_device_that_shows_the_eye_the_picture_may_fail) {
+    const std::string device = halves();
+    if (device.empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    const TemporaryFolder folder;
+    const std::string options =
+        "render --size 48x36 --panel rgb --ppd 45 --adaptive on --spp 60" + device + " --film ";
+    const fs::path whole = folder / "whole.film", film = folder / "a.film";
+    ASSERT_EQ(run_triad(options + whole.string()).exit, 0);
+    fs::remove(whole);
+    const auto calls = calls_of(options + whole.string(), folder / "counts", 0);
+    for (const double part : {0.5, 0.6, 0.7, 0.8, 0.9}) {
+        fs::remove(film);
+        const std::string fault =
+            "0 any " + std::to_string(long(part * double(calls.at("any")))) + " -5 ever";
         const Outcome outcome = run_faulty(options + film.string(), fault);
         EXPECT_EQ(outcome.exit, 0) << fault << "\n" << outcome.output;
         EXPECT_TRUE(bytes_of(film) == bytes_of(whole)) << fault << "\n" << outcome.output;
