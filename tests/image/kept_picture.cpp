@@ -15,7 +15,9 @@ namespace {
 constexpr unsigned edge = TileMeans::edge;
 
 std::size_t tiles_across(unsigned width) { return (width + edge - 1) / edge; }
-std::size_t kept_tile_count(unsigned width, unsigned height) { return tiles_across(width) * tiles_across(height); }
+std::size_t kept_tile_count(unsigned width, unsigned height) {
+    return tiles_across(width) * tiles_across(height);
+}
 std::size_t tile_of(std::size_t pixel, unsigned width) {
     return pixel / width / edge * tiles_across(width) + pixel % width / edge;
 }

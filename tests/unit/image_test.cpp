@@ -70,9 +70,12 @@ void expect_near(const Bytes& rgba, std::array<int, 4> expected, int tolerance) 
 
 /// A segment with `marker` right after SOI.
 Bytes with_segment(const Bytes& jpeg, std::uint8_t marker, const Bytes& data) {
-    Bytes out{0xff, 0xd8, 0xff, marker, std::uint8_t((data.size() + 2) >> 8), std::uint8_t(data.size() + 2)};
-    out.insert(out.end(), data.begin(), data.end());
-    out.insert(out.end(), jpeg.begin() + 2, jpeg.end());
+    Bytes out(data.size() + jpeg.size() + 4);
+    const std::size_t length = data.size() + 2;
+    const std::array<std::uint8_t, 6> start{
+        0xff, 0xd8, 0xff, marker, std::uint8_t(length >> 8), std::uint8_t(length)};
+    const auto rest = std::copy(data.begin(), data.end(), std::copy(start.begin(), start.end(), out.begin()));
+    std::copy(jpeg.begin() + 2, jpeg.end(), rest);
     return out;
 }
 
