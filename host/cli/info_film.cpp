@@ -74,7 +74,10 @@ void print(const std::string& path, const SalvagedFilm& found, const SampleNumbe
     if (film.progress && !film.progress->words.empty())
         std::printf("; begun as: triad render %s", words_of(film).c_str());
     std::printf("\n");
-    if (film.progress) std::printf("            triad render --resume %s goes on\n", path.c_str());
+    if (film.progress)
+        std::printf(
+            "            triad render --resume %s goes on%s\n", path.c_str(),
+            film.progress->words.empty() ? ", with the scene and the options that it was rendered with" : "");
     std::printf("damage      %s\n", found.damage().empty() ? "none" : found.damage().c_str());
 }
 

@@ -47,10 +47,10 @@ void declare_paths(CLI::App& command, RenderRequest& o) {
                     "Longest path in edges: 1 emitters only, 2 direct light (default 0: no limit)")
         ->type_name("N");
     command
-        .add_option(
-            "--roulette", o.roulette,
-            "Paths that carry less than this are ended in proportion (default 0.8; 0.5: least error for its "
-            "time; 1: most samples)")
+        .add_option("--roulette", o.roulette,
+                    "Paths that carry less than this are ended in proportion (default 0.4: least error for "
+                    "its rays; 1: "
+                    "most samples)")
         ->check(number_within(0.01, 10))
         ->type_name("T");
     add_choice<Integrator>(

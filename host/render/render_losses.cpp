@@ -91,7 +91,8 @@ void RenderLoop::redo_with_photons(const TileWorks& work, std::uint32_t sample) 
             undelivered_[tracer].add_sample(shared, sample);
             is_done = true;  // or lost again, with what this device takes along
             recredit(work, tracer, {0, work.size()}, sample);
-            trace_photons(tracer, goal_.samples.begin + work.front().first_sample[0] + sample, 1);
+            trace_photons(tracer, goal_.samples.begin + work.front().first_sample[0] + sample,
+                          goal_.photon_share);
             launcher_.run_on(tracer, work, goal_.samples.begin + sample);
             choose_tiles(tracer, {});
         });
