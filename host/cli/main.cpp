@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/memory_limit.h"
+#include "base/shell_limits.h"
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "device/device.h"
@@ -94,9 +95,13 @@ int run_and_tell(int argc, char** argv) {
     }
 }
 
+/// What the loader calls before the initialisers of any library.
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = heed_shell_limits;
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    libraries_have_started();
     survive_drivers(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
     std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "base/log.h"
+#include "base/shell_limits.h"
 #include "device/opencl.h"
 
 namespace triad::opencl {
@@ -234,6 +235,8 @@ Found choose(const std::string& selector) {
             "There is no OpenCL device. Install a driver: your GPU's, or PoCL, which runs on the CPU "
             "(apt-get install pocl-opencl-icd).";
         for (const auto& [platform, why] : problems) text += "\n  " + platform + ": " + why;
+        if (const std::string limits = shell_limits(); !limits.empty())
+            text += "\n  The shell's limits (" + limits + ") may be what keeps a driver from loading.";
         throw Error(Exit::device, text);
     }
     std::vector<Found> matching;

@@ -11,9 +11,15 @@
 namespace triad {
 namespace {
 
-/// A device that takes so many times as long as it ever did hangs; but no sooner than after so many seconds,
-/// and at its first launch, which a driver may compile for, after more.
-constexpr double times_the_longest = 50, least_patience = 10, first_patience = 120;
+/// A device that takes so many times as long as it ever did hangs.
+constexpr double times_the_longest = 50;
+
+/// But no sooner than after so many seconds, and at its first launch, which a driver may compile for, after
+/// more.
+struct Patience {
+    double least, first;
+};
+constexpr Patience with_others{10, 120}, alone{60, 3600};  // an only one is given up with the render
 
 }  // namespace
 
@@ -55,9 +61,9 @@ void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::Til
 }
 
 void Launcher::be_patient(std::size_t i) {
-    if (tracers_.size() == 1) return;
+    const Patience& patience = tracers_.size() > 1 ? with_others : alone;
     const double measured = times_the_longest * longest_[i];
-    tracers_[i]->device().set_patience(std::max(measured, longest_[i] > 0 ? least_patience : first_patience));
+    tracers_[i]->device().set_patience(std::max(measured, longest_[i] > 0 ? patience.least : patience.first));
 }
 
 void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders) {

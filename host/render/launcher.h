@@ -61,7 +61,7 @@ class Launcher {
         busy_[tracer] += seconds;
         longest_[tracer] = std::max(longest_[tracer], seconds);
     }
-    /// Where there are several tracers, from here on this one's device is given up when it hangs.
+    /// From here on this tracer's device is given up when it hangs: soon where there are others.
     void be_patient(std::size_t tracer);
     /// Seconds that a tracer worked, and samples that it took, so far.
     double busy_seconds(std::size_t tracer) const { return busy_[tracer]; }

@@ -97,6 +97,18 @@ TEST_F(DeviceFaults, a_device_that_never_answers_is_given_up) {
     EXPECT_NE(said.find("has not answered for 10 s"), std::string::npos) << said;
 }
 
+TEST_F(DeviceFaults, an_only_device_that_never_answers_ends_the_render_which_goes_on) {
+    device_.clear();
+    render_whole("--size 64x48 --spp 1200 --checkpoint 0.1");
+    fs::remove(film_);
+    const Outcome outcome = run_faulty(command_ + film_.string(), "0 clSetEventCallback 60 1 ever");
+    EXPECT_EQ(outcome.exit, 5) << outcome.output;
+    EXPECT_NE(outcome.output.find("has not answered for 60 s"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("To go on: triad render --resume"), std::string::npos) << outcome.output;
+    EXPECT_EQ(run_triad("render --resume " + film_.string()).exit, 0);
+    EXPECT_TRUE(bytes_of(film_) == bytes_of(whole_));
+}
+
 TEST_F(DeviceFaults, a_device_that_brings_garbage_is_given_up) {
     render_whole("--size 64x48 --spp 60 --checkpoint 0.05");
     // Sums, half sums, samples and counters are read, each time.

@@ -89,3 +89,27 @@ TEST(DevicesCommand, all_is_every_piece_of_hardware_once) {
             hardware.push_back(device.hardware);
     EXPECT_EQ(nlohmann::json::parse(bytes_of(json))["rows"][0]["devices"].size(), hardware.size());
 }
+
+TEST(DevicesCommand, sixty_four_devices_make_the_film_of_one) {
+    std::string kinds, numbers;
+    for (int i = 0; i < 64; ++i) kinds += "basic ", numbers += (i ? "," : "") + std::to_string(i);
+    const std::string sixty_four = "POCL_DEVICES='" + kinds + "'";
+    const Outcome devices = run_triad("devices", sixty_four);
+    if (devices.output.find("\n  63  ") == std::string::npos) GTEST_SKIP() << "PoCL is not the only driver";
+    const TemporaryFolder folder;
+    const std::string render = "render --size 64x48 --spp 16 -q --film ";
+    const fs::path one = folder / "one.film", many = folder / "many.film";
+    Outcome outcome = run_triad(render + one.string() + " --device 0", sixty_four);
+    ASSERT_EQ(outcome.exit, 0) << outcome.output;
+    outcome = run_triad(render + many.string() + " --device " + numbers, sixty_four);
+    ASSERT_EQ(outcome.exit, 0) << outcome.output;
+    EXPECT_TRUE(bytes_of(one) == bytes_of(many));
+}
+
+TEST(DevicesCommand, a_machine_without_a_device_is_told_what_to_install) {
+    const Outcome outcome =
+        run_triad("render --size 8x8 --spp 1 -o /tmp/none.png", "OCL_ICD_VENDORS=/nowhere");
+    EXPECT_EQ(outcome.exit, 5);
+    EXPECT_NE(outcome.output.find("apt-get install pocl-opencl-icd"), std::string::npos) << outcome.output;
+    EXPECT_EQ(run_triad("devices", "OCL_ICD_VENDORS=/nowhere").exit, 5);
+}
