@@ -82,6 +82,14 @@
     VALUE(uint, first_sample_high)                           \
     VALUE(uint, sample_count)
 
+/* path/count.cl: samples [0, sample_count) of the pixels [first_pixel, first_pixel + pixel_count) of the
+ * crop, row by row. */
+#define COUNT_WORK_LIST(ARRAY, OWNED, SHARED, VALUE) \
+    OWNED(PixelWork, work)                           \
+    VALUE(uint, first_pixel)                         \
+    VALUE(uint, pixel_count)                         \
+    VALUE(uint, sample_count)
+
 /* path/features.cl: planes of the pixels [first_pixel, first_pixel + pixel_count), in the order of tiles,
  * from samples [0, sample_count). */
 #define TRACE_FEATURES_LIST(ARRAY, OWNED, SHARED, VALUE) \

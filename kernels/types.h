@@ -531,6 +531,28 @@ typedef struct PathRecord {
 } PathRecord;
 TRIAD_SIZE(PathRecord, 32);
 
+/* ---- Counted work (kernels/path/count.cl) ---- */
+
+/* Rays by what they are for. */
+#define WORK_CAMERA 0
+#define WORK_BOUNCE 1
+#define WORK_SHADOW 2
+#define WORK_KINDS 3
+
+/* What the walks of rays did. Deepest: children that waited at most, summed over the rays, and of any. */
+typedef struct RayWork {
+    uint rays, nodes, blocks, triangles, deepest_sum, deepest;
+} RayWork;
+TRIAD_SIZE(RayWork, 24);
+
+/* Of the samples of a pixel. A vertex is the end of an edge that hit something. */
+typedef struct PixelWork {
+    RayWork rays[WORK_KINDS];
+    uint vertices;
+    uint unused;
+} PixelWork;
+TRIAD_SIZE(PixelWork, 80);
+
 /* Tone maps of kernels/subpixel/tone_map.h */
 #define TONE_MAP_NONE 0u
 #define TONE_MAP_KHRONOS 1u

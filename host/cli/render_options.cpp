@@ -216,7 +216,6 @@ void declare_output(CLI::App& command, RenderRequest& o) {
         ->allow_extra_args(false)
         ->group(output_group);
     declare_style(command, o.style);
-    declare(command, o.reconstruct);
     command
         .add_option("--aov", o.aovs,
                     "Layers for EXR files: albedo, normal, position, depth, samples, variance, error, or all")
@@ -279,7 +278,7 @@ void declare_machine(CLI::App& command, RenderRequest& o) {
 
 }  // namespace
 
-void declare(CLI::App& command, RenderRequest& o) {
+void declare_workload(CLI::App& command, RenderRequest& o) {
     command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
         ->type_name("");
     declare_goals(command, o);
@@ -289,8 +288,13 @@ void declare(CLI::App& command, RenderRequest& o) {
     declare_picture(command, o);
     declare_camera(command, o);
     declare_light(command, o);
-    declare_output(command, o);
+    declare(command, o.reconstruct);
     declare_machine(command, o);
+}
+
+void declare(CLI::App& command, RenderRequest& o) {
+    declare_workload(command, o);
+    declare_output(command, o);
 }
 
 }  // namespace triad

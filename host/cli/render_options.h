@@ -6,6 +6,9 @@
 
 namespace triad {
 
+/// What is rendered and on which device: all options of render but those on what is written. As declare().
+void declare_workload(CLI::App& command, RenderRequest& request);
+
 /// Declares the options on a subcommand. `request` must outlive the parsing; complete() it afterwards.
 void declare(CLI::App& command, RenderRequest& request);
 

@@ -51,26 +51,6 @@ cl_device_id restrict_to(const Device::Settings& settings, DeviceState& state) {
 
 }  // namespace
 
-void DeviceState::finish() {
-    core->require_alive();
-    await();
-    core->check("clFinish", clFinish(commands()));
-    first_runs.reset();
-    for (const auto& [kernel, handle] : events) {
-        cl_ulong start = 0, end = 0;
-        const auto event = static_cast<cl_event>(handle.get());
-        for (const auto& [what, time] :
-             {std::pair(CL_PROFILING_COMMAND_START, &start), {CL_PROFILING_COMMAND_END, &end}})
-            core->check("clGetEventProfilingInfo",
-                        clGetEventProfilingInfo(event, what, sizeof *time, time, nullptr),
-                        {.kernel = kernel});
-        KernelTime& sum = times[kernel];
-        ++sum.launches;
-        sum.seconds += static_cast<double>(end - start) * 1e-9;
-    }
-    events.clear();
-}
-
 }  // namespace opencl
 
 Device Device::open(const Settings& settings) {
@@ -166,18 +146,24 @@ void Device::write(const Buffer& buffer, const void* data, std::size_t bytes, st
     if (bytes == 0) return;
     state_->core->require_alive();
     state_->await();
-    state_->core->check("clEnqueueWriteBuffer",
-                        clEnqueueWriteBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
-                                             CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+    cl_event event = nullptr;
+    state_->core->check(
+        "clEnqueueWriteBuffer",
+        clEnqueueWriteBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()), CL_TRUE, offset,
+                             bytes, data, 0, nullptr, state_->event_for(event)));
+    state_->note(event, {.kind = CommandKind::write, .name = "write", .bytes = bytes});
 }
 
 void Device::read(const Buffer& buffer, void* data, std::size_t bytes, std::size_t offset) {
     if (bytes == 0) return;
     state_->core->require_alive();
     state_->await();
-    state_->core->check("clEnqueueReadBuffer",
-                        clEnqueueReadBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
-                                            CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
+    cl_event event = nullptr;
+    state_->core->check(
+        "clEnqueueReadBuffer",
+        clEnqueueReadBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()), CL_TRUE, offset,
+                            bytes, data, 0, nullptr, state_->event_for(event)));
+    state_->note(event, {.kind = CommandKind::read, .name = "read", .bytes = bytes});
     state_->first_runs.reset();
 }
 
@@ -185,9 +171,12 @@ void Device::fill_zero(const Buffer& buffer) {
     if (!buffer) return;
     state_->core->require_alive();
     const cl_uchar zero = 0;
-    state_->core->check("clEnqueueFillBuffer",
-                        clEnqueueFillBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
-                                            &zero, sizeof zero, 0, buffer.bytes(), 0, nullptr, nullptr));
+    cl_event event = nullptr;
+    state_->core->check(
+        "clEnqueueFillBuffer",
+        clEnqueueFillBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()), &zero, sizeof zero,
+                            0, buffer.bytes(), 0, nullptr, state_->event_for(event)));
+    state_->note(event, {.kind = CommandKind::fill, .name = "fill", .bytes = buffer.bytes()});
 }
 
 void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t items, std::size_t local) {
@@ -233,9 +222,9 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
     cl_event event = nullptr;
     core.check("clEnqueueNDRangeKernel",
                clEnqueueNDRangeKernel(state_->commands(), handle, 1, nullptr, &global, &local, 0, nullptr,
-                                      state_->profile ? &event : nullptr),
+                                      state_->event_for(event)),
                state.where);
-    if (event) state_->events.emplace_back(kernel.name(), own(event, clReleaseEvent, state_->core));
+    state_->note(event, {.kind = CommandKind::kernel, .name = kernel.name(), .items = items, .local = local});
 }
 
 void Device::finish() { state_->finish(); }
@@ -255,11 +244,6 @@ const std::map<std::string, std::string>& Device::choices() const { return state
 void Device::set_shape(Options shape) { state_->shape = std::move(shape); }
 
 double Device::compile_seconds() const { return state_->compile_seconds; }
-
-std::map<std::string, KernelTime> Device::times() {
-    if (state_->profile) state_->finish();
-    return state_->times;
-}
 
 Arguments& Arguments::add(const Buffer& buffer) {
     values_.push_back({buffer.handle_, true, {}});

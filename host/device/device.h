@@ -155,6 +155,32 @@ struct KernelTime {
     double seconds = 0;
 };
 
+/// What a command of the queue does.
+enum class CommandKind { kernel, write, read, fill };
+
+/// A command that has ended, from its profiling event. Nanoseconds on the device's clock, but `enqueued`,
+/// which is on the host's steady clock.
+struct DeviceCommand {
+    CommandKind kind = CommandKind::kernel;
+    std::string name;                  ///< of the kernel; else "write", "read", "fill"
+    std::size_t items = 0, local = 0;  ///< of a kernel: as many as asked for, and in groups of so many
+    std::size_t bytes = 0;             ///< of the others
+    std::int64_t enqueued = 0;         ///< by the host
+    std::int64_t queued = 0, start = 0, end = 0;
+};
+
+/// What a driver tells of a compiled kernel; zeros where it does not.
+struct KernelFacts {
+    std::string program, name;
+    std::size_t private_bytes = 0, local_bytes = 0, max_local = 0, preferred_multiple = 0;
+};
+
+/// How long a program took to compile, or to load.
+struct Compilation {
+    std::string program;
+    double seconds = 0;
+};
+
 /// Kernel source: the files of kernels/, embedded in the binary, or read from a folder when one is set
 /// (--kernels DIR).
 namespace kernel_source {
@@ -247,8 +273,13 @@ class Device {
     std::map<std::string, std::string>& choices();
     const std::map<std::string, std::string>& choices() const;
 
-    double compile_seconds() const;             ///< spent in build() so far
-    std::map<std::string, KernelTime> times();  ///< by kernel; empty unless settings.profile
+    double compile_seconds() const;                        ///< spent in build() so far
+    const std::vector<Compilation>& compilations() const;  ///< of build(), in order
+    std::map<std::string, KernelTime> times();             ///< by kernel; empty unless settings.profile
+    /// All that the queue did so far, in order; empty unless settings.profile. Waits for the queue.
+    const std::vector<DeviceCommand>& commands();
+    /// Of every kernel that was made so far.
+    std::vector<KernelFacts> kernels() const;
 
   private:
     Buffer share(std::size_t bytes, const void* data, std::shared_ptr<const void> owner);

@@ -87,9 +87,10 @@ struct DeviceState {
     cl_device_id device = nullptr;
     std::shared_ptr<void> partition, context,
         queue;  ///< in the order of creation: destruction goes backwards
-    std::map<std::pair<std::string, std::string>, Program> programs;    ///< by text and options
-    std::vector<std::pair<std::string, std::shared_ptr<void>>> events;  ///< launches not yet in `times`
-    std::map<std::string, KernelTime> times;
+    std::map<std::pair<std::string, std::string>, Program> programs;      ///< by text and options
+    std::vector<std::pair<DeviceCommand, std::shared_ptr<void>>> events;  ///< not yet among `ended`
+    std::vector<DeviceCommand> ended;
+    std::vector<Compilation> compilations;
     std::set<std::pair<std::string, std::size_t>> ran;  ///< kernels by name and work-group size
     std::optional<Peril> first_runs;                    ///< of kernels, until they have ended
     std::size_t preferred_local = 1;
@@ -99,8 +100,12 @@ struct DeviceState {
 
     cl_context cl() const { return static_cast<cl_context>(context.get()); }
     cl_command_queue commands() const { return static_cast<cl_command_queue>(queue.get()); }
-    /// Waits for the queue and moves its launches from `events` to `times`.
+    /// Waits for the queue and moves its commands from `events` to `ended`.
     void finish();
+    /// Where a command's event goes: null unless the queue is profiled.
+    cl_event* event_for(cl_event& event) const { return profile ? &event : nullptr; }
+    /// A command that was just enqueued; nothing without an event.
+    void note(cl_event event, DeviceCommand command);
     /// Waits until the queue is empty, with patience.
     void await();
 };

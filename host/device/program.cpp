@@ -145,7 +145,9 @@ Program Device::build_source(const std::string& name, const std::string& source,
         opencl::store_binary(static_cast<cl_program>(state->handle.get()), cached);
     }
     program.state_ = std::move(state);
-    device.compile_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    device.compile_seconds += seconds;
+    device.compilations.push_back({name, seconds});
     return program;
 }
 

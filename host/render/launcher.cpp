@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/error.h"
+#include "base/spans.h"
 #include "render/renderer_state.h"
 
 namespace triad {
@@ -49,6 +50,7 @@ void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::Til
     std::uint64_t samples = 0;
     for (std::size_t k = 0; k < piece.count; ++k) samples += samples_of(work[piece.first + k]);
     be_patient(i);
+    const Span span("launch");
     const auto start = RenderClock::now();
     tracer.trace(piece.first, piece.count, first_sample);
     tracer.finish();

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/spans.h"
 #include "base/text.h"
 
 namespace triad {
@@ -85,6 +86,7 @@ void RenderLoop::go_on_from(const FilmProgress& progress) {
 }
 
 RenderResult RenderLoop::run() {
+    const Span span("render");
     const double processor_start = processor_seconds();
     try {
         if (photons().is_classic()) make_classic_map();
@@ -201,6 +203,7 @@ void RenderLoop::look() {
 
 /// Estimates the error; at the end of a round also for the decisions.
 void RenderLoop::estimate(bool decides) {
+    const Span span("estimate the error");
     const double began = seconds();
     name_ranges();
     gather();

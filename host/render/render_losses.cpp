@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/log.h"
+#include "base/spans.h"
 #include "render/render_loop.h"
 
 namespace triad {
@@ -12,6 +13,7 @@ namespace triad {
 /// Reads the parts into the film's arrays. Of several devices, parts are emptied: what was read is delivered,
 /// whatever happens to the device; and where one fails at that, the others do its work again and deliver too.
 void RenderLoop::gather() {
+    const Span span("read the film");
     if (!is_shared()) {
         s_.store.gather(s_.tracers);
         return;

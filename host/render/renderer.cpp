@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/memory_limit.h"
+#include "base/spans.h"
 #include "render/photon_pilot.h"
 #include "render/renderer_state.h"
 #include "trace/node_format.h"
@@ -80,6 +81,7 @@ bool try_device(std::size_t devices, const std::function<void()>& work) {
 }
 
 DeviceScenes scene_on(std::span<Device* const> devices, const Scene& scene, const RenderSettings& settings) {
+    const Span span("build trees and upload");
     BvhFormats formats;
     for (const Device* device : devices) formats.insert(format_of(*device));
     const auto packed = pack_for(scene, settings, {}, formats);
@@ -98,6 +100,7 @@ Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, cons
       features(f ? *f : features_of(*packed, settings)),
       store(*packed, settings) {
     assert(holds_for(*packed, s));
+    const Span span("compile");
     const auto start = RenderClock::now();
     for (const auto& scene : scenes) {
         assert(scene->shared() == packed);
@@ -201,6 +204,17 @@ void Renderer::record_pixel(unsigned x, unsigned y, SampleRange range,
                             const std::function<void(const RecordedPath&)>& receive) {
     record_paths(state_->first_alive(), x, y, range, receive);
 }
+
+WorkCounts Renderer::count_work(unsigned samples) {
+    return triad::count_work(state_->first_alive(), samples);
+}
+
+std::vector<double> Renderer::time_tiles(unsigned samples) {
+    return triad::time_tiles(state_->first_alive(), tile_count(state_->film().width, state_->film().height),
+                             samples);
+}
+
+MemoryUse Renderer::device_memory() const { return state_->first_alive().memory(); }
 
 Device& Renderer::device() const { return state_->first_alive().device(); }
 const PackedScene& Renderer::packed() const { return *state_->packed; }

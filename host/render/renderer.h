@@ -12,6 +12,7 @@
 #include "scene/scene.h"
 #include "trace/feature_planes.h"
 #include "trace/recorder.h"
+#include "trace/work_counter.h"
 
 namespace triad {
 
@@ -88,6 +89,13 @@ class Renderer {
     /// record_paths() on the first device.
     void record_pixel(unsigned x, unsigned y, SampleRange range,
                       const std::function<void(const RecordedPath&)>& receive);
+
+    /// What the rays of the first samples of every pixel take, on the first device.
+    WorkCounts count_work(unsigned samples);
+    /// Seconds that each tile of the crop takes on the first device, so many samples of it in a launch of
+    /// their own, row by row. The film is that of no picture afterwards: restart().
+    std::vector<double> time_tiles(unsigned samples);
+    MemoryUse device_memory() const;  ///< of the first device
 
     /// The first that has not failed.
     Device& device() const;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/text.h"
+#include "report/aligned.h"
 #include "report/error_words.h"
 
 namespace triad {
@@ -36,23 +37,6 @@ const char* name_of(ErrorChange::Verdict verdict) {
     throw std::logic_error("no such verdict");
 }
 
-/// Columns as wide as their widest text; the first two are words, the others numbers.
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
-    std::vector<std::size_t> widths(lines.front().size());
-    for (const auto& line : lines)
-        for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-    std::string text;
-    for (const auto& line : lines) {
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            const std::string blanks(widths[i] - line[i].size(), ' ');
-            text += (i ? "  " : "") + (i < 2 ? line[i] + blanks : blanks + line[i]);
-        }
-        text.erase(text.find_last_not_of(' ') + 1);
-        text += "\n";
-    }
-    return text;
-}
-
 }  // namespace
 
 std::string table_of(const ErrorBench& bench) {
@@ -67,7 +51,7 @@ std::string table_of(const ErrorBench& bench) {
                          text_of(c.time_ratio, "%.3f (%.3f..%.3f)"),
                          c.right ? "" : "VOID: the picture is wrong"});
     }
-    std::string text = aligned(lines);
+    std::string text = aligned(lines, 2);
     for (const ErrorCurve& c : bench.curves)
         if (!c.right) text += c.scene + ", " + c.setting + ": " + c.verdict + ".\n";
     if (bench.changes.empty()) return text;
@@ -76,7 +60,7 @@ std::string table_of(const ErrorBench& bench) {
         lines.push_back({c.scene, c.setting, name_of(c.verdict),
                          format("%.3f (%.3f..%.3f)", c.time_ratio.value, c.time_ratio.low, c.time_ratio.high),
                          text_of(c.error_ratio, "%.3f (%.3f..%.3f)"), format("%.2g", c.p)});
-    return text + "\n" + aligned(lines);
+    return text + "\n" + aligned(lines, 2);
 }
 
 std::string table_of(const std::vector<SettingScore>& scores) {

@@ -5,57 +5,17 @@
 #include <cstdio>
 #include <fstream>
 
-#include "base/child_process.h"
-#include "base/files.h"
 #include "base/text.h"
+#include "report/gnuplot.h"
 
 namespace triad {
 namespace {
 
-/// Okabe and Ito 2008 without its yellow, the strongest first; settings also differ by dash and by marker.
-/// Over eight begin again with another dash.
-struct Pen {
-    const char *light, *dark;  // "rgb(  r, g, b)" as gnuplot writes it, and what a dark page shows instead
-    const char* colour;
-};
-constexpr Pen pens[] = {
-    {"rgb(  0, 114, 178)", "#5ab4ee", "#0072b2"}, {"rgb(213,  94,   0)", "#ff8a3c", "#d55e00"},
-    {"rgb(  0, 158, 115)", "#2fcf9f", "#009e73"}, {"rgb(204, 121, 167)", "#e39ac4", "#cc79a7"},
-    {"rgb(230, 159,   0)", "#f0b429", "#e69f00"}, {"rgb( 86, 180, 233)", "#86cdf5", "#56b4e9"},
-    {"rgb( 90,  90,  90)", "#b8b8b8", "#5a5a5a"}};
 constexpr int markers[] = {7, 5, 9, 11, 13, 6, 4};
-
-const Pen& pen_of(std::size_t setting) { return pens[setting % std::size(pens)]; }
 
 std::string line_style(std::size_t setting) {
     return format("lc rgb '%s' lw 2 dt %u pt %d ps 0.8", pen_of(setting).colour,
-                  1 + unsigned(setting + setting / std::size(pens)) % 5,
-                  markers[setting % std::size(markers)]);
-}
-
-/// Every plot is one page: colours of text and axes follow the reader's choice of light or dark.
-std::string head(const std::string& title, double height) {
-    return format("set terminal svg size 480,%d dynamic font 'sans-serif,15' noenhanced\n", int(height)) +
-           "set encoding utf8\nset title " + gnuplot_quoted(title) +
-           "\nset border lc rgb 'black'\nset grid lc rgb '#888888' lw 0.5 dt 1\nset key font ',14'\n";
-}
-
-/// CSS that shows what has one colour as another.
-std::string recoloured(const std::string& from, const std::string& to) {
-    std::string css;
-    for (const std::string what : {"stroke", "fill", "color"})
-        css += " [" + what + "=\"" + from + "\"]{" + what + ":" + to + "}";
-    return css;
-}
-
-std::string restyled(std::string svg) {
-    std::string style = "<style>@media (prefers-color-scheme: dark) {";
-    for (const char* ink : {"black", "rgb(  0,   0,   0)", "rgb(0,0,0)"}) style += recoloured(ink, "#d6dae0");
-    for (const Pen& pen : pens) style += recoloured(pen.light, pen.dark);
-    style += "}</style>";
-    const auto end = svg.find("</desc>");
-    if (end != std::string::npos) svg.insert(end + 7, "\n" + style);
-    return svg;
+                  1 + unsigned(setting + setting / pen_count) % 5, markers[setting % std::size(markers)]);
 }
 
 struct Limits {
@@ -90,20 +50,6 @@ std::string slug(const std::string& name) {
 
 }  // namespace
 
-std::string gnuplot_quoted(const std::string& name) {
-    std::string out = "'";
-    for (const char c : name) {
-        if (static_cast<unsigned char>(c) < 32 || c == 127)
-            out += ' ';
-        else if (c == '\'')
-            out +=
-                "\xe2\x80\x99";  // gnuplot's own way to write one inside fails at the beginning of a string
-        else
-            out += c;
-    }
-    return out + "'";
-}
-
 std::string error_plot_script(const ErrorBench& bench, const std::string& scene, bool on_time) {
     std::vector<const ErrorCurve*> curves;
     for (const ErrorCurve& curve : bench.curves)
@@ -126,8 +72,8 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
         data += "EOD\n";
     }
     if (x.empty() || y.empty()) return "";
-    std::string script = head(scene + (on_time ? ": error against time" : ": error against samples"),
-                              360 + 19 * double(curves.size() + 1));
+    std::string script = plot_head(scene + (on_time ? ": error against time" : ": error against samples"),
+                                   360 + 19 * double(curves.size() + 1));
     script += on_time ? "set xlabel 'seconds of rendering'\n" : "set xlabel 'samples per pixel'\n";
     script +=
         "set ylabel 'relative error (square root of relMSE)'\nset key tmargin center\nset format "
@@ -181,8 +127,8 @@ std::string efficiency_plot_script(const ErrorBench& bench) {
     if (x.empty()) return "";
     const double rows = double(bench.scenes.size() * (settings + 1));
     const double left = std::pow(10.0, std::floor(std::log10(x.low) - 0.3));
-    std::string script =
-        head("Efficiency: 1 / (MSE x seconds), longer is better", 120 + 19 * double(settings) + 24 * rows);
+    std::string script = plot_head("Efficiency: 1 / (MSE x seconds), longer is better",
+                                   120 + 19 * double(settings) + 24 * rows);
     script +=
         "set xlabel '1 / (MSE x seconds)'\nset logscale x 10\nset format x '%g'\nunset "
         "grid\nset grid xtics "
@@ -211,26 +157,10 @@ std::string efficiency_plot_script(const ErrorBench& bench) {
 
 ErrorPlots draw_error_plots(const ErrorBench& bench) {
     ErrorPlots result;
-    const TemporaryFolder folder;
-    const auto script_path = folder.path() / "plot.gp", picture_path = folder.path() / "plot.svg",
-               log_path = folder.path() / "log";
     auto draw = [&](const std::string& script, ErrorPlot plot) {
         if (script.empty() || !result.missing.empty()) return;
-        write_file(script_path, script);
-        const auto status = run_program({"gnuplot", script_path.string()}, picture_path, log_path);
-        if (!status) {
-            result.missing =
-                "There are no plots, because the program gnuplot is not installed (Debian package: "
-                "gnuplot-nox).";
-        } else if (*status != 0) {
-            const auto log = read_file(log_path, 1 << 20);
-            result.missing = "gnuplot failed to draw " + plot.file + " (exit status " +
-                             std::to_string(*status) + "): " + std::string(log.begin(), log.end());
-        } else {
-            const auto bytes = read_file(picture_path);
-            plot.svg = restyled({bytes.begin(), bytes.end()});
-            result.plots.push_back(std::move(plot));
-        }
+        plot.svg = draw_with_gnuplot(script, plot.file, result.missing);
+        if (!plot.svg.empty()) result.plots.push_back(std::move(plot));
     };
     for (std::size_t i = 0; i < bench.scenes.size(); ++i) {
         const std::string& name = bench.scenes[i].name;

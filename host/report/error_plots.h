@@ -26,7 +26,4 @@ ErrorPlots draw_error_plots(const ErrorBench& bench);
 std::string error_plot_script(const ErrorBench& bench, const std::string& scene, bool on_time);
 std::string efficiency_plot_script(const ErrorBench& bench);
 
-/// A name as a gnuplot string, of which gnuplot expands nothing.
-std::string gnuplot_quoted(const std::string& name);
-
 }  // namespace triad

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "base/spans.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "session/choose_view.h"
@@ -110,7 +111,9 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 
 namespace {
 
-Device opened(const RenderRequest& o, const Device::Settings& settings) {
+Device opened(const RenderRequest& o, Device::Settings settings) {
+    const Span span("open the device");
+    settings.profile = o.profile;
     Device device = Device::open(settings);
     Tuning wishes;
     if (o.format) wishes["format"] = name_of(*o.format);

@@ -42,7 +42,7 @@ void complete(RenderRequest& o) {
     if (o.checkpoint && o.film_path.empty())
         throw Error(Exit::usage, "--checkpoint is how often a film is written: name one with --film.");
     // A film alone is a complete result: a part of a larger render.
-    if (!o.pixel && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
+    if (!o.pixel && !o.profile && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);
     if (std::count(o.outputs.begin(), o.outputs.end(), "-") + (o.json_path == "-") > 1)
         throw Error(Exit::usage, "Only one of the outputs can go to standard output.");

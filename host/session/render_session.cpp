@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/machine.h"
 #include "base/parallel_for.h"
+#include "base/spans.h"
 #include "base/text.h"
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
@@ -75,6 +76,7 @@ std::string joined(const std::vector<Device>& devices, const Say& say) {
 }
 
 Scene timed_scene(const RenderRequest& request, double& seconds) {
+    const Span span("load the scene");
     const auto start = Clock::now();
     Scene scene = load_scene(request);
     seconds = since(start);
@@ -231,6 +233,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
 }
 
 void RenderSession::write(const RenderOutcome& outcome) {
+    const Span span("write");
     const auto write_film = [&] {
         if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
     };

@@ -60,6 +60,15 @@ DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> pack
     copy(a.indices, surfaces.indices);
 }
 
+MemoryUse DeviceScene::memory() const {
+    MemoryUse use;
+#define TRIAD_ARRAY(type, name) \
+    if (arrays_.name.bytes() > 0) use.emplace_back(#name, arrays_.name.bytes());
+    SCENE_LIST(TRIAD_ARRAY, TRIAD_ARRAY)
+#undef TRIAD_ARRAY
+    return use;
+}
+
 Arguments DeviceScene::arguments(const DeviceArray<dev::Frame>& frame, const DeviceArray<float>& ray_filter,
                                  const PhotonMapBuffers& photon_map) const {
     dev::SceneArguments a = arrays_;

@@ -1,6 +1,10 @@
 #pragma once
 /// A packed scene on one device.
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "device/device.h"
 #include "pack/pack.h"
@@ -15,6 +19,9 @@ struct PhotonMapBuffers {
     DeviceArray<std::uint32_t> ends;
 };
 
+/// Bytes on a device, by what they are for.
+using MemoryUse = std::vector<std::pair<std::string, std::uint64_t>>;
+
 /// The arrays of a packed scene on a device, for any number of pictures. A device that works in the host's
 /// memory uses the host's arrays.
 class DeviceScene {
@@ -26,6 +33,8 @@ class DeviceScene {
     const PackedScene& packed() const { return *packed_; }
     const std::shared_ptr<const PackedScene>& shared() const { return packed_; }
     std::uint64_t bytes() const { return bytes_; }
+    /// Of every array that is not empty, by its name in kernels/arguments.h.
+    MemoryUse memory() const;
 
     /// What kernels that shade begin with. frame: one; ray_filter: ray_filter_tables().
     Arguments arguments(const DeviceArray<dev::Frame>& frame, const DeviceArray<float>& ray_filter,

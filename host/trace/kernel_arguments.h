@@ -22,6 +22,7 @@ struct SceneArguments {
 struct TracePathsArguments { TRIAD_ARGUMENTS(TRACE_PATHS_LIST) };
 struct TraceWaveArguments { TRIAD_ARGUMENTS(TRACE_WAVE_LIST) };
 struct RecordPathsArguments { TRIAD_ARGUMENTS(RECORD_PATHS_LIST) };
+struct CountWorkArguments { TRIAD_ARGUMENTS(COUNT_WORK_LIST) };
 struct TraceFeaturesArguments { TRIAD_ARGUMENTS(TRACE_FEATURES_LIST) };
 struct TracePhotonsArguments { TRIAD_ARGUMENTS(TRACE_PHOTONS_LIST) };
 // clang-format on
@@ -42,6 +43,7 @@ inline Arguments arguments_of(const dev::SceneArguments& a) {
 inline Arguments arguments_of(const dev::TracePathsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_PATHS_LIST); }
 inline Arguments arguments_of(const dev::TraceWaveArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_WAVE_LIST); }
 inline Arguments arguments_of(const dev::RecordPathsArguments& a) { return TRIAD_ARGUMENTS_OF(RECORD_PATHS_LIST); }
+inline Arguments arguments_of(const dev::CountWorkArguments& a) { return TRIAD_ARGUMENTS_OF(COUNT_WORK_LIST); }
 inline Arguments arguments_of(const dev::TraceFeaturesArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_FEATURES_LIST); }
 inline Arguments arguments_of(const dev::TracePhotonsArguments& a) { return TRIAD_ARGUMENTS_OF(TRACE_PHOTONS_LIST); }
 // clang-format on

@@ -85,6 +85,16 @@ void Tracer::finish() {
     device_.finish();
 }
 
+MemoryUse Tracer::memory() const {
+    MemoryUse use = scene_->memory();
+    use.insert(use.end(), {{"film", part_.bytes()},
+                           {"work", frame_buffer_.bytes() + work_.bytes()},
+                           {"photon map", photons_.bytes()},
+                           {"paths under way", driver_->bytes()}});
+    std::erase_if(use, [](const auto& each) { return each.second == 0; });
+    return use;
+}
+
 std::uint64_t Tracer::bytes() const {
     return scene_->bytes() + frame_buffer_.bytes() + photons_.bytes() + part_.bytes() + work_.bytes() +
            driver_->bytes();

@@ -38,6 +38,8 @@ class Tracer {
     FilmPart& part() { return part_; }
     PhotonTracer& photons() { return photons_; }
     std::uint64_t bytes() const;
+    /// The same, by what it is for.
+    MemoryUse memory() const;
     std::size_t most_tiles() const { return driver_->most_tiles(); }  ///< of one call of trace()
 
     /// The part of the film is read: it begins again.

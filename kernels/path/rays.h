@@ -15,6 +15,9 @@ TRIAD_FUNCTION Hit rays_closest(const Scene* scene, Ray ray, uint name, Tally* t
 #else
     (void)name;
 #endif
+#if TRIAD_COUNT_WORK
+    traversal.work = &tally->ray;
+#endif
     ++tally->rays;
     return traverse_closest(&traversal, ray);
 }
@@ -28,6 +31,9 @@ TRIAD_FUNCTION int rays_occluded(const Scene* scene, Ray ray, uint name, Tally* 
 #else
     (void)name;
 #endif
+#if TRIAD_COUNT_WORK
+    traversal.work = &tally->ray;
+#endif
     ++tally->rays;
     return traverse_occluded(&traversal, ray);
 }
@@ -37,16 +43,23 @@ TRIAD_FUNCTION Hit path_closest(const Scene* scene, const PathState* path, Tally
 #if PATH_FORKS
     if (path_is_back(path)) return path->fork.hit;
 #endif
-    return rays_closest(scene, path->ray, path_ray_name(path), tally);
+    const Hit hit = rays_closest(scene, path->ray, path_ray_name(path), tally);
+    work_count(tally, path->edge == 1u ? WORK_CAMERA : WORK_BOUNCE);
+#if TRIAD_COUNT_WORK
+    if (hit.primitive != TRIAD_NONE) ++tally->work.vertices;
+#endif
+    return hit;
 }
 
 /* Whether anything is in the way of the light that a vertex has chosen. */
 TRIAD_FUNCTION int path_occluded(const Scene* scene, const PendingLight* light, Tally* tally) {
 #if TRIAD_ALPHA_TEST
-    return rays_occluded(scene, light->ray, light->name, tally);
+    const int is_occluded = rays_occluded(scene, light->ray, light->name, tally);
 #else
-    return rays_occluded(scene, light->ray, 0u, tally);
+    const int is_occluded = rays_occluded(scene, light->ray, 0u, tally);
 #endif
+    work_count(tally, WORK_SHADOW);
+    return is_occluded;
 }
 
 #endif

@@ -10,6 +10,9 @@
 #ifndef TRIAD_RECORD
 #define TRIAD_RECORD 0
 #endif
+#ifndef TRIAD_COUNT_WORK
+#define TRIAD_COUNT_WORK 0
+#endif
 
 /* What one work-item counts, in registers, for COUNTER_*. */
 typedef struct Tally {
@@ -18,7 +21,35 @@ typedef struct Tally {
     global PathVertex* path; /* PATH_VERTICES of them */
     uint vertices;
 #endif
+#if TRIAD_COUNT_WORK
+    RayWork ray; /* of the present ray */
+    PixelWork work;
+#endif
 } Tally;
+
+#if TRIAD_COUNT_WORK
+
+TRIAD_FUNCTION RayWork work_none(void) {
+    RayWork w;
+    w.rays = w.nodes = w.blocks = w.triangles = w.deepest_sum = w.deepest = 0u;
+    return w;
+}
+
+/* The present ray has been walked. */
+TRIAD_FUNCTION void work_count(Tally* t, uint kind) {
+    RayWork* sum = &t->work.rays[kind];
+    sum->rays += 1u;
+    sum->nodes += t->ray.nodes;
+    sum->blocks += t->ray.blocks;
+    sum->triangles += t->ray.triangles;
+    sum->deepest_sum += t->ray.deepest;
+    sum->deepest = max(sum->deepest, t->ray.deepest);
+    t->ray = work_none();
+}
+
+#else
+#define work_count(tally, kind)
+#endif
 
 TRIAD_FUNCTION Tally tally_start(void) {
     Tally t;
@@ -26,6 +57,11 @@ TRIAD_FUNCTION Tally tally_start(void) {
 #if TRIAD_RECORD
     t.path = 0; /* record.cl sets it */
     t.vertices = 0u;
+#endif
+#if TRIAD_COUNT_WORK
+    t.ray = work_none();
+    for (uint kind = 0u; kind < WORK_KINDS; ++kind) t.work.rays[kind] = work_none();
+    t.work.vertices = t.work.unused = 0u;
 #endif
     return t;
 }

@@ -4,6 +4,19 @@
 #include "traversal/slab.h"
 #include "traversal/triangle.h"
 
+/* A program that counts what walks do defines TRIAD_COUNT_WORK 1 (path/count.cl). */
+#ifndef TRIAD_COUNT_WORK
+#define TRIAD_COUNT_WORK 0
+#endif
+
+#if TRIAD_COUNT_WORK
+#define TRAVERSAL_COUNT(scene, what, n) ((scene)->work->what += (n))
+#define TRAVERSAL_WAITING(scene, size) ((scene)->work->deepest = max((scene)->work->deepest, (size)))
+#else
+#define TRAVERSAL_COUNT(scene, what, n)
+#define TRAVERSAL_WAITING(scene, size)
+#endif
+
 #define TRAVERSAL_TESTS_ALPHA 0
 #ifdef TRAVERSAL_ACCEPT
 #undef TRAVERSAL_TESTS_ALPHA
@@ -18,6 +31,9 @@ typedef struct Traversal {
     uint root;
 #ifdef TRAVERSAL_CONTEXT
     TRAVERSAL_CONTEXT context;
+#endif
+#if TRIAD_COUNT_WORK
+    RayWork* work; /* of one ray: the caller's to set */
 #endif
 } Traversal;
 

@@ -8,10 +8,12 @@
 TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const SpaceRay* ray, Hit* best,
                                         const int any) {
     global const TriangleBlock* block = scene->blocks + (leaf & BVH_INDEX);
+    TRAVERSAL_COUNT(scene, blocks, 1u);
     uint before = TRIAD_NONE;
 #pragma unroll 1 /* four copies take four times the registers */
     for (uint lane = 0u; lane < 4u && block->primitive[lane] != before; ++lane) {
         before = block->primitive[lane];
+        TRAVERSAL_COUNT(scene, triangles, 1u);
         TriangleHits hit;
         if (!triangle_intersect(block, lane, &ray->sheared, best->t, ray->skip, &hit)) continue;
         if (traversal_take(scene, leaf, lane, hit.t, hit.u, hit.v, ray->instance, best, any)) return 1;
@@ -77,10 +79,12 @@ TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ra
             continue;
 #endif
         } else {
+            TRAVERSAL_COUNT(scene, nodes, 1u);
             float entry[4];
             uint children[4];
             slab_intersect(scene->nodes + child, &space.slab, best->t, entry, children);
             const uint next = traversal_choose(entry, children, stack, &size, any);
+            TRAVERSAL_WAITING(scene, size);
             if (next != TRIAD_NONE) {
                 child = next;
                 continue;

@@ -8,6 +8,8 @@
 TRIAD_FUNCTION int traversal_visit_leaf(const Traversal* scene, uint leaf, const SpaceRay* ray, Hit* best,
                                         const int any) {
     global const TriangleBlock* block = scene->blocks + (leaf & BVH_INDEX);
+    TRAVERSAL_COUNT(scene, blocks, 1u);
+    TRAVERSAL_COUNT(scene, triangles, 4u);
     TriangleHits hits;
     const int4 lanes = triangle_intersect(block, 0u, &ray->sheared, best->t, ray->skip, &hits);
     const int2 pairs = lanes.lo | lanes.hi;
@@ -71,6 +73,7 @@ TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ra
             continue;
 #endif
         } else {
+            TRAVERSAL_COUNT(scene, nodes, 1u);
             global const Bvh8Node* node = scene->nodes + child;
             float8 entries;
             ulong mask = slab_intersect(node, &space.slab, best->t, &entries);
@@ -96,6 +99,7 @@ TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ra
                     stack[place] = farther;
                     traversal_prefetch(scene, (uint)other);
                 } while (mask != 0ul);
+                TRAVERSAL_WAITING(scene, size);
                 child = (uint)nearest;
                 continue;
             }

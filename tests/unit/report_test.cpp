@@ -10,6 +10,7 @@
 #include "report/error_pictures.h"
 #include "report/error_plots.h"
 #include "report/error_report.h"
+#include "report/gnuplot.h"
 #include "report/error_words.h"
 #include "report/html.h"
 

@@ -1,0 +1,139 @@
+// triad profile: where the time of a render goes, kernel by kernel.
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "base/files.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/spans.h"
+#include "bench/profile.h"
+#include "cli/command_line.h"
+#include "cli/option_kinds.h"
+#include "cli/render_options.h"
+#include "report/profile_page.h"
+#include "report/profile_report.h"
+#include "session/render_session.h"
+
+namespace triad {
+namespace {
+
+struct ProfileOptions {
+    RenderRequest request;
+    unsigned runs = 5;
+    std::string folder, json, trace, against;
+};
+
+/// What a report of other work is told by.
+Json workload_of(RenderSession& session) {
+    const RenderRequest& o = session.request();
+    const Film film = session.renderer().film();
+    return {{"scene", film.scene}, {"settings", film.settings}, {"spp", *o.spp}};
+}
+
+/// One after the other, each alone.
+std::vector<std::string> devices_in(const std::string& list) {
+    std::vector<std::string> devices;
+    std::istringstream words(list);
+    for (std::string word; std::getline(words, word, ',');) devices.push_back(word);
+    if (devices.empty()) devices.emplace_back();
+    return devices;
+}
+
+void check(const ProfileOptions& o) {
+    if (o.request.error || o.request.time || o.request.samples || o.request.share)
+        throw Error(Exit::usage,
+                    "The runs of a profile do the same work: give --spp N instead of --error, "
+                    "--time or --samples.");
+    if (o.request.pixel) throw Error(Exit::usage, "A profile is of a picture: leave --pixel out.");
+    if (o.request.device == "all" || o.request.device.find('/') != std::string::npos)
+        throw Error(Exit::usage,
+                    "--device " + o.request.device +
+                        ": a profile is of whole devices, one after the other: a number, cpu, gpu "
+                        "or part of a name each, with commas between.");
+    for (const std::string& path : {o.json, o.trace})
+        if (!path.empty() && path != "-") check_writable(path);
+}
+
+Json earlier(const std::string& path) {
+    const std::vector<std::uint8_t> file = read_file(path, 1u << 28);
+    Json json = Json::parse(file.begin(), file.end(), nullptr, false);
+    if (json.is_discarded()) throw Error(Exit::scene, "--against " + path + ": that is no JSON.");
+    return json;
+}
+
+Exit run(ProfileOptions o) {
+    check(o);
+    o.request.profile = true;
+    if (!o.request.spp) o.request.spp = 8;
+    const Json before = o.against.empty() ? Json() : earlier(o.against);
+    keep_spans();
+    std::vector<Profile> profiles;
+    Json workload;
+    const InterruptGuard guard;
+    for (const std::string& device : devices_in(o.request.device)) {
+        RenderRequest request = o.request;
+        request.device = device;
+        RenderSession session(std::move(request));
+        workload = workload_of(session);
+        profiles.push_back(profile(session.renderer(), session.goal(), session.request().seed, o.runs,
+                                   [&](unsigned done, unsigned all) {
+                                       inform(done == 0 ? "Warmed up"
+                                                        : "Run " + std::to_string(done) + " of " +
+                                                              std::to_string(all));
+                                       return !guard.interrupted();
+                                   }));
+    }
+    if (o.json != "-") std::fputs(table_of(profiles).c_str(), stdout);
+    const Json more{{"workload", workload}, {"devices", devices_of(profiles)}};
+    if (!o.json.empty()) write_report(o.json, "profile", &profiles.front().device, rows_of(profiles), more);
+    if (!o.trace.empty()) write_file(o.trace, trace_of(profiles.back(), kept_spans()).dump() + "\n");
+    if (!o.folder.empty()) {
+        std::filesystem::create_directories(o.folder);
+        write_file(std::filesystem::path(o.folder) / "index.html",
+                   profile_page(profiles, kept_spans(), command_words()));
+        inform("Page: " + o.folder + "/index.html");
+    }
+    if (o.against.empty()) return Exit::done;
+    const std::vector<KernelChange> changes = changes_since(before, profiles, workload);
+    bool is_slower = false;
+    for (const KernelChange& change : changes) is_slower |= change.is_slower;
+    if (o.json != "-") std::printf("\n%s", table_of(changes).c_str());
+    return is_slower ? Exit::comparison : Exit::done;
+}
+
+}  // namespace
+
+void add_profile(CLI::App& app, Exit& exit) {
+    auto o = std::make_shared<ProfileOptions>();
+    CLI::App* command =
+        app.add_subcommand("profile", "Where the time of a render goes: kernels, rays, bytes, roofline");
+    declare_workload(*command, o->request);
+    const char* const group = "Output";
+    command
+        ->add_option("--runs", o->runs,
+                     "Of the same picture with other seeds, after one that warms up (default 5)")
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N")
+        ->group(group);
+    command->add_option("-o,--output", o->folder, "Write a page, index.html, into this folder")
+        ->type_name("DIR")
+        ->group(group);
+    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)")
+        ->type_name("FILE")
+        ->group(group);
+    command->add_option("--trace", o->trace, "Write the last run as a time line for Perfetto")
+        ->type_name("FILE")
+        ->group(group);
+    command
+        ->add_option("--against", o->against,
+                     "An earlier --json of the same work: exit 7 where a kernel became slower beyond noise")
+        ->type_name("FILE")
+        ->group(group);
+    command->callback([o, &exit] { exit = run(*o); });
+}
+
+}  // namespace triad

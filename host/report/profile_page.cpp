@@ -1,0 +1,313 @@
+#include "report/profile_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "base/log.h"
+#include "base/machine.h"
+#include "base/text.h"
+#include "kernels/types.h"
+#include "report/error_pictures.h"
+#include "report/error_report_style.h"
+#include "report/gnuplot.h"
+#include "report/html.h"
+#include "report/report.h"
+
+namespace triad {
+namespace {
+
+/// Of the time line: what is shorter than a pixel is drawn with its neighbours.
+constexpr double line_width = 1000, row_height = 22;
+/// Of the last run, from its middle on: the whole would be a stripe.
+constexpr double line_seconds = 0.25;
+
+constexpr const char* style = R"css(
+.bar { position: relative; background: var(--card); border-radius: .2rem; height: 1.1rem; min-width: 5rem; }
+.bar i { position: absolute; inset: 0 auto 0 0; background: var(--good); opacity: .55; border-radius: .2rem; }
+.line { overflow-x: auto; } .line svg { width: 100%; min-width: 40rem; height: auto; }
+svg text { fill: var(--ink); font: 12px system-ui, sans-serif; }
+svg .k0 { fill: #0072b2; } svg .k1 { fill: #d55e00; } svg .k2 { fill: #009e73; } svg .k3 { fill: #cc79a7; }
+svg .k4 { fill: #e69f00; } svg .k5 { fill: #56b4e9; } svg .k6 { fill: #888; }
+.maps { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: 1rem; }
+.maps img { image-rendering: pixelated; }
+)css";
+
+std::string cell(const std::string& label, const std::string& text) {
+    return "<td class=\"n\" data-label=\"" + label + "\"><span class=\"v\">" + html_escape(text) +
+           "</span></td>";
+}
+
+std::string number_or_dash(double v, const char* pattern) { return v > 0 ? format(pattern, v) : "-"; }
+
+std::string kernels_html(const Profile& p) {
+    std::string html =
+        "<table><thead><tr><th>Kernel</th><th>Share</th><th>ms of a run</th><th>Launches</th><th>Median, p95 "
+        "ms</th><th>M items/s</th><th>GB/s</th><th>GFLOP/s</th><th>Of the roof</th></tr></thead><tbody>\n";
+    for (const KernelRow& r : p.rows) {
+        html += "<tr><th data-label=\"Kernel\">" + html_escape(r.kernel) + "</th>";
+        html += "<td data-label=\"Share\"><div class=\"v\"><div class=\"bar\"><i style=\"width:" +
+                format("%.1f", 100 * r.share) + "%\"></i></div>" + format("%.1f %%", 100 * r.share) +
+                "</div></td>";
+        html += cell("ms of a run", format("%.1f (%.1f to %.1f)", r.ms.value, r.ms.low, r.ms.high));
+        html += cell("Launches", format("%.0f", double(r.launches) / p.runs));
+        html += cell("Median, p95 ms", format("%.3f, %.3f", r.ms_median, r.ms_p95));
+        html += cell("M items/s", number_or_dash(1e-6 * r.items_per_s, "%.2f"));
+        html += cell("GB/s", number_or_dash(1e-9 * r.bytes_per_s(), "%.2f"));
+        html += cell("GFLOP/s", number_or_dash(1e-9 * r.flops_per_s(), "%.2f"));
+        html += cell("Of the roof",
+                     r.floor ? format("%.0f %% of ", 100 * *r.roofline_share()) + r.floor->by : "-");
+        html += "</tr>\n";
+    }
+    return html + "</tbody></table>\n";
+}
+
+std::string rays_html(const WorkCounts& c) {
+    std::string html =
+        "<table><thead><tr><th>Rays</th><th>Per sample</th><th>Nodes</th><th>Leaves</th><th>Triangles</th>"
+        "<th>Stack, deepest</th></tr></thead><tbody>\n";
+    const double samples = double(c.width) * c.height * c.samples;
+    for (unsigned kind = 0; kind < WORK_KINDS; ++kind) {
+        const RayCounts& r = c.rays[kind];
+        const double n = double(std::max<std::uint64_t>(1, r.rays));
+        html += std::string("<tr><th data-label=\"Rays\">") + ray_kind(kind) + "</th>" +
+                cell("Per sample", format("%.3f", double(r.rays) / samples)) +
+                cell("Nodes", format("%.2f", double(r.nodes) / n)) +
+                cell("Leaves", format("%.2f", double(r.blocks) / n)) +
+                cell("Triangles", format("%.2f", double(r.triangles) / n)) +
+                cell("Stack, deepest", format("%.2f, %u", double(r.deepest_sum) / n, r.deepest)) + "</tr>\n";
+    }
+    return html + "</tbody></table>\n";
+}
+
+/// Rectangles of one row, those that would touch at this scale as one.
+class LineRow {
+  public:
+    LineRow(double y, double from, double to) : y_(y), from_(from), scale_(line_width / (to - from)) {}
+
+    void add(double start, double end, std::size_t colour, const std::string& name) {
+        const double x = std::max(0.0, (start - from_) * scale_),
+                     right = std::min(line_width, (end - from_) * scale_);
+        if (right <= 0 || x >= line_width || right <= x) return;
+        if (name == name_ && x - right_ < 0.3) {
+            right_ = right;
+            return;
+        }
+        flush();
+        x_ = x, right_ = right, colour_ = colour, name_ = name;
+    }
+    std::string svg() {
+        flush();
+        return svg_;
+    }
+
+  private:
+    double y_, from_, scale_, x_ = 0, right_ = -1;
+    std::size_t colour_ = 0;
+    std::string name_, svg_;
+
+    void flush() {
+        if (right_ < 0) return;
+        svg_ += format("<rect class=\"k%u\" x=\"%.2f\" y=\"%.0f\" width=\"%.2f\" height=\"%.0f\"><title>",
+                       unsigned(colour_), x_, y_, std::max(0.2, right_ - x_), row_height - 4) +
+                html_escape(name_) + "</title></rect>\n";
+        right_ = -1;
+    }
+};
+
+std::string line_html(const Profile& p, const std::vector<HostSpan>& spans) {
+    if (p.commands.empty()) return "";
+    const auto host = [&](std::int64_t device) { return 1e-9 * double(device + p.clock_offset); };
+    const double first = host(p.commands.front().start), last = host(p.commands.back().end);
+    const double from = std::max(first, 0.5 * (first + last - line_seconds)),
+                 to = std::min(last, from + line_seconds);
+    std::map<std::string, std::size_t> colours;
+    for (const KernelRow& r : p.rows) colours.emplace(r.kernel, std::min<std::size_t>(colours.size(), 6));
+    std::string rows, names;
+    unsigned row = 0;
+    const auto label = [&](const std::string& name) {
+        names +=
+            format("<text x=\"0\" y=\"%.0f\">", row * 2 * row_height + 14) + html_escape(name) + "</text>\n";
+        return row++ * 2 * row_height + row_height - 2;
+    };
+    unsigned threads = 0;
+    for (const HostSpan& s : spans) threads = std::max(threads, s.thread + 1);
+    for (unsigned thread = 0; thread < threads; ++thread) {
+        std::vector<const HostSpan*> of_thread;  // the innermost: what encloses others is the whole run
+        for (const HostSpan& s : spans)
+            if (s.thread == thread && s.name != "render" && 1e-9 * double(s.end) > from &&
+                1e-9 * double(s.start) < to)
+                of_thread.push_back(&s);
+        if (of_thread.empty()) continue;
+        std::ranges::sort(of_thread, {}, &HostSpan::start);
+        LineRow line(label(thread == 0 ? "host" : "host, thread " + std::to_string(thread)), from, to);
+        for (const HostSpan* s : of_thread)
+            line.add(1e-9 * double(s->start), 1e-9 * double(s->end), s->name == "launch" ? 5 : 6, s->name);
+        rows += line.svg();
+    }
+    LineRow queue(label("queue of the device"), from, to);
+    for (const DeviceCommand& c : p.commands) queue.add(host(c.start), host(c.end), colours[c.name], c.name);
+    rows += queue.svg();
+    std::string legend;
+    for (const KernelRow& r : p.rows) {
+        legend += (legend.empty() ? "" : " &middot; ") +
+                  std::string("<svg width=\"12\" height=\"12\"><rect class=\"k") +
+                  std::to_string(colours[r.kernel]) + "\" width=\"12\" height=\"12\"/></svg> " +
+                  html_escape(r.kernel);
+    }
+    return format("<h3>%.0f ms of the last run</h3>\n", 1e3 * (to - from)) +
+           format(
+               "<div class=\"line\"><svg viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"Time line\">\n",
+               line_width, row * 2 * row_height) +
+           names + rows + "</svg></div>\n<p class=\"soft\">" + legend + "</p>\n";
+}
+
+std::string legend(const ColourScale& scale, const std::string& low, const std::string& high) {
+    return "<div class=\"scale\"><i style=\"background:" + css_gradient(scale) + "\"></i><span>" +
+           html_escape(low) + "</span><span>" + html_escape(high) + "</span></div>";
+}
+
+std::string map_html(const std::vector<float>& values, unsigned width, unsigned height,
+                     const std::string& words, const char* pattern) {
+    std::vector<float> sorted = values;
+    std::sort(sorted.begin(), sorted.end());
+    const double high = std::max<double>(1e-12, sorted[std::size_t(0.995 * double(sorted.size() - 1))]);
+    const ColourScale scale{0, high, false};
+    return "<figure><img alt=\"" + html_escape(words) + "\" src=\"" +
+           data_uri("image/png", false_colour_png(values, width, height, scale)) + "\"><figcaption>" +
+           html_escape(words) + "</figcaption>" + legend(scale, "0", format(pattern, high)) + "</figure>\n";
+}
+
+std::string maps_html(const Profile& p) {
+    const WorkCounts& c = p.counts;
+    std::vector<float> visits(c.visits.size()), seconds(c.visits.size());
+    const unsigned across = (c.width + FILM_TILE - 1) / FILM_TILE;
+    for (std::size_t i = 0; i < visits.size(); ++i) {
+        const std::size_t x = i % c.width, y = i / c.width, tile = y / FILM_TILE * across + x / FILM_TILE;
+        visits[i] = float(double(c.visits[i]) / c.samples);
+        seconds[i] = float(1e6 * p.tile_seconds[tile] / c.samples);
+    }
+    return "<h3>Where in the picture</h3>\n<div class=\"maps\">\n" +
+           map_html(visits, c.width, c.height, "Nodes and leaves that the paths of a sample visit", "%.0f") +
+           map_html(seconds, c.width, c.height, "Microseconds of a sample of each tile, launched alone",
+                    "%.3g us") +
+           "</div>\n";
+}
+
+std::string peaks_html(const Profile& p) {
+    std::string html =
+        "<table><thead><tr><th>Data in</th><th>Read GB/s</th><th>Copy GB/s</th><th>M dependent "
+        "reads/s</th></tr></thead><tbody>\n";
+    for (const MemoryPeak& m : p.peaks.memory)
+        html += "<tr><th data-label=\"Data in\">" + bytes_text(m.bytes) + "</th>" +
+                cell("Read GB/s", format("%.1f", 1e-9 * m.read)) +
+                cell("Copy GB/s", format("%.1f", 1e-9 * m.copy)) +
+                cell("M dependent reads/s", format("%.1f", 1e-6 * m.gathers)) + "</tr>\n";
+    return html + "</tbody></table>\n";
+}
+
+std::string rest_html(const Profile& p) {
+    std::string html = "<h3>Everything else</h3>\n<dl>";
+    const auto add = [&](const std::string& name, const std::string& text) {
+        html += "<dt>" + html_escape(name) + "</dt><dd>" + html_escape(text) + "</dd>\n";
+    };
+    add("Queue",
+        format("at work for %.3f s of a run; waits %.3f s between commands, %.3f s of it for the host",
+               p.busy, p.waiting, p.host_between));
+    std::string memory, compiled, facts;
+    for (const auto& [name, bytes] : p.memory)
+        memory += (memory.empty() ? "" : ", ") + name + " " + bytes_text(bytes);
+    add("On the device", memory);
+    for (const Compilation& c : p.compilations)
+        compiled += (compiled.empty() ? "" : ", ") + c.program + format(" %.2f s", c.seconds);
+    add("Compiled or loaded", compiled);
+    for (const KernelRow& r : p.rows)
+        if (r.kind == CommandKind::kernel)
+            facts += (facts.empty() ? "" : "; ") + r.kernel + ": " + std::to_string(r.facts.private_bytes) +
+                     " bytes private, groups of " + std::to_string(r.facts.max_local) +
+                     " at most, multiples of " + std::to_string(r.facts.preferred_multiple);
+    add("What the driver says", facts);
+    return html + "</dl>\n";
+}
+
+std::string device_html(const Profile& p, const std::vector<HostSpan>& spans, std::string& missing) {
+    const Estimate seconds = median_estimate(p.seconds_of_runs);
+    std::string html = "<h2>" + html_escape(p.device.name) + "</h2>\n<p>" + html_escape(p.device.platform) +
+                       ", driver " + html_escape(p.device.driver) + "; paths by " +
+                       html_escape(p.path_driver) + ", nodes " + html_escape(p.format) + ". " +
+                       format("%u runs of %.0f samples, %.3f s each (%.3f to %.3f).", p.runs, p.samples,
+                              seconds.value, seconds.low, seconds.high) +
+                       "</p>\n" + kernels_html(p);
+    const std::string script = roofline_script(p);
+    const std::string svg = script.empty() ? "" : draw_with_gnuplot(script, "the roofline", missing);
+    if (!svg.empty())
+        html +=
+            "<div class=\"wide\"><figure><img alt=\"Roofline\" src=\"" +
+            data_uri("image/svg+xml", {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()}) +
+            "\"><figcaption>Operations of boxes and triangles per byte that is touched, and how fast. Lines "
+            "are what the device does at most, with data in its caches and in "
+            "memory.</figcaption></figure></div>\n";
+    return html + line_html(p, spans) + "<h3>What rays take</h3>\n" + rays_html(p.counts) + maps_html(p) +
+           "<h3>The roof, measured here</h3>\n" +
+           format("<p>%.1f GFLOP/s of fused multiply-adds.</p>\n", 1e-9 * p.peaks.flops) + peaks_html(p) +
+           rest_html(p);
+}
+
+}  // namespace
+
+std::string roofline_script(const Profile& p) {
+    std::string data, labels;
+    std::size_t points = 0;
+    double low = 1, high = 0;
+    for (const KernelRow& r : p.rows) {
+        if (!r.cost || !(r.cost->flops > 0) || !(r.cost->bytes > 0)) continue;
+        const double intensity = r.cost->flops / r.cost->bytes;
+        data += format("%.9g %.9g %u\n", intensity, 1e-9 * r.flops_per_s(), unsigned(points + 1));
+        labels += (points ? ", " : "") + std::string("$kernels using ($3==") + std::to_string(points + 1) +
+                  "?$1:1/0):2 with points pt " + std::to_string(5 + 2 * points) + " ps 1.2 lc rgb '" +
+                  pen_of(points).colour + "' title " + gnuplot_quoted(r.kernel);
+        low = std::min(low, 1e-9 * r.flops_per_s()), high = std::max(high, intensity);
+        ++points;
+    }
+    if (points == 0) return "";
+    const double roof = 1e-9 * p.peaks.flops;
+    std::string script = plot_head("Roofline", 380 + 19.0 * double(points + p.peaks.memory.size()));
+    script +=
+        "set xlabel 'operations per byte'\nset ylabel 'GFLOP/s'\nset logscale xy 10\nset format xy '%g'\n"
+        "set key tmargin center\nset samples 200\n";
+    script += format("set xrange [0.01:%.9g]\nset yrange [%.9g:%.9g]\n", std::max(100.0, 3 * high), 0.3 * low,
+                     2 * roof);
+    script += "$kernels << EOD\n" + data + "EOD\nplot ";
+    std::size_t dash = 1;
+    for (const MemoryPeak& m : p.peaks.memory)
+        script +=
+            format("(x * %.9g < %.9g ? x * %.9g : %.9g) with lines lw 1.5 dt %u lc rgb '#888888' title ",
+                   1e-9 * m.read, roof, 1e-9 * m.read, roof, unsigned(dash++)) +
+            gnuplot_quoted("roof, data in " + bytes_text(m.bytes)) + ", ";
+    return script + labels + "\n";
+}
+
+std::string profile_page(const std::vector<Profile>& profiles, const std::vector<HostSpan>& spans,
+                         const std::string& command) {
+    std::string missing, devices;
+    for (const Profile& p : profiles) devices += device_html(p, spans, missing);
+    if (!missing.empty()) warn(missing + " The rest of the page is complete.");
+    return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+           "content=\"width=device-width, initial-scale=1\">\n<title>Triad profile</title>\n<link "
+           "rel=\"icon\" "
+           "href=\"data:,\">\n<style>" +
+           std::string(error_report_style) + style +
+           "</style></head><body>\n<h1>Where the time goes</h1>\n<dl><dt>Command</dt><dd><code>" +
+           html_escape(command) + "</code></dd><dt>Date</dt><dd>" + date_words() +
+           "</dd><dt>Machine</dt><dd>" + html_escape(machine_words()) +
+           "</dd><dt>Triad</dt><dd>" TRIAD_VERSION "</dd></dl>\n" +
+           (missing.empty() ? "" : "<p class=\"bad\">" + html_escape(missing) + "</p>\n") + devices +
+           "<p class=\"soft\">Visits are counted by an instrumented program on other samples of the picture; "
+           "bytes, operations (of boxes and triangles alone, not of shading) and dependent reads follow by "
+           "formula. "
+           "The roof is the least time that reading these bytes, doing these operations or waiting for these "
+           "reads would take with all data in the nearest cache.</p>\n</body></html>\n";
+}
+
+}  // namespace triad

@@ -1,0 +1,37 @@
+#pragma once
+/// A profile as text, as JSON, and beside an earlier one.
+#include <string>
+#include <vector>
+
+#include "bench/profile.h"
+#include "report/report.h"
+
+namespace triad {
+
+/// Tables for a terminal: kernels, rays, and what else took time; of several devices also side by side.
+std::string table_of(const std::vector<Profile>& profiles);
+
+/// The rows of --json: kernels by falling share, device after device.
+Json rows_of(const std::vector<Profile>& profiles);
+/// What is no row of a kernel: "peaks", "rays", "memory", "compilations", "queue" of each device.
+Json devices_of(const std::vector<Profile>& profiles);
+
+/// Trace Event Format, which Perfetto and chrome://tracing show: the host's threads and the device's queue on
+/// one time line, microseconds from the first span on.
+Json trace_of(const Profile& profile, const std::vector<HostSpan>& spans);
+
+/// A kernel now and in an earlier report.
+struct KernelChange {
+    std::string kernel, device;
+    double before_ms = 0, now_ms = 0;  ///< of a run
+    Estimate ratio;                    ///< now over before
+    bool is_slower = false;            ///< beyond noise, and one that matters
+};
+
+/// Those that both have. `before`: what --json wrote. Throws Error(scene) when it is no such report,
+/// Error(usage) when it is of other work.
+std::vector<KernelChange> changes_since(const Json& before, const std::vector<Profile>& profiles,
+                                        const Json& workload);
+std::string table_of(const std::vector<KernelChange>& changes);
+
+}  // namespace triad

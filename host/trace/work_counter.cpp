@@ -1,0 +1,84 @@
+#include "trace/work_counter.h"
+
+#include <algorithm>
+#include <string>
+
+#include "trace/program.h"
+
+namespace triad {
+namespace {
+
+void add(RayCounts& sum, const dev::RayWork& work) {
+    sum.rays += work.rays, sum.nodes += work.nodes, sum.blocks += work.blocks;
+    sum.triangles += work.triangles, sum.deepest_sum += work.deepest_sum;
+    sum.deepest = std::max(sum.deepest, work.deepest);
+}
+
+}  // namespace
+
+const char* ray_kind(unsigned kind) {
+    constexpr const char* names[WORK_KINDS] = {"camera", "bounce", "shadow"};
+    return names[kind];
+}
+
+RayCounts WorkCounts::all() const {
+    RayCounts sum;
+    for (const RayCounts& kind : rays) {
+        sum.rays += kind.rays, sum.nodes += kind.nodes, sum.blocks += kind.blocks;
+        sum.triangles += kind.triangles, sum.deepest_sum += kind.deepest_sum;
+        sum.deepest = std::max(sum.deepest, kind.deepest);
+    }
+    return sum;
+}
+
+WorkCounts count_work(Tracer& tracer, unsigned samples) {
+    Device& device = tracer.device();
+    const Kernel kernel = device.build(program_of(tracer.settings(), "count"), options_of(tracer.features()))
+                              .kernel("count_work");
+    const dev::Frame& frame = tracer.frame();
+    WorkCounts counts{
+        .width = frame.crop[2], .height = frame.crop[3], .samples = samples, .rays = {}, .visits = {}};
+    const std::size_t pixels = std::size_t(counts.width) * counts.height;
+    dev::CountWorkArguments own{.work = device.allocate_array<dev::PixelWork>(pixels),
+                                .first_pixel = 0,
+                                .pixel_count = 0,
+                                .sample_count = samples};
+    const std::size_t most = std::max<std::size_t>(64, largest_launch_items / samples / 64 * 64);
+    for (std::size_t first = 0; first < pixels; first += most) {
+        own.first_pixel = std::uint32_t(first);
+        own.pixel_count = std::uint32_t(std::min(most, pixels - first));
+        device.run(kernel, Arguments(tracer.arguments()).add(arguments_of(own)), own.pixel_count);
+        device.finish();
+    }
+    for (const dev::PixelWork& pixel : device.download<dev::PixelWork>(own.work)) {
+        std::uint32_t visits = 0;
+        for (unsigned kind = 0; kind < WORK_KINDS; ++kind) {
+            add(counts.rays[kind], pixel.rays[kind]);
+            visits += pixel.rays[kind].nodes + pixel.rays[kind].blocks;
+        }
+        counts.vertices += pixel.vertices;
+        counts.visits.push_back(visits);
+    }
+    return counts;
+}
+
+std::vector<double> time_tiles(Tracer& tracer, std::size_t tiles, unsigned samples) {
+    std::vector<dev::TileWork> work;
+    for (std::size_t tile = 0; tile < tiles; ++tile)
+        work.push_back({std::uint32_t(tile), {0, 0}, {samples, samples}, {}});
+    tracer.set_work(work);
+    std::vector<double> seconds;
+    std::size_t ended = tracer.device().commands().size();
+    for (std::size_t tile = 0; tile < tiles; ++tile) {
+        tracer.trace(tile, 1, 0);
+        tracer.finish();
+        const std::vector<DeviceCommand>& commands = tracer.device().commands();
+        double took = 0;
+        for (; ended < commands.size(); ++ended)
+            took += 1e-9 * double(commands[ended].end - commands[ended].start);
+        seconds.push_back(took);
+    }
+    return seconds;
+}
+
+}  // namespace triad
