@@ -6,6 +6,7 @@
 
 #include "base/memory_limit.h"
 #include "device/opencl.h"
+#include "device/recorder.h"
 
 namespace triad {
 
@@ -51,6 +52,9 @@ cl_device_id restrict_to(const Device::Settings& settings, DeviceState& state) {
 
 }  // namespace
 
+DeviceState::DeviceState() = default;
+DeviceState::~DeviceState() = default;
+
 void DeviceState::finish() {
     core->require_alive();
     await();
@@ -66,7 +70,8 @@ void DeviceState::finish() {
                         {.kernel = kernel});
         KernelTime& sum = times[kernel];
         ++sum.launches;
-        sum.seconds += static_cast<double>(end - start) * 1e-9;
+        sum.each.push_back(static_cast<double>(end - start) * 1e-9);
+        sum.seconds += sum.each.back();
     }
     events.clear();
 }
@@ -166,6 +171,7 @@ void Device::write(const Buffer& buffer, const void* data, std::size_t bytes, st
     if (bytes == 0) return;
     state_->core->require_alive();
     state_->await();
+    if (state_->recorder) state_->recorder->write(buffer.handle_, data, bytes, offset);
     state_->core->check("clEnqueueWriteBuffer",
                         clEnqueueWriteBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
                                              CL_TRUE, offset, bytes, data, 0, nullptr, nullptr));
@@ -184,6 +190,7 @@ void Device::read(const Buffer& buffer, void* data, std::size_t bytes, std::size
 void Device::fill_zero(const Buffer& buffer) {
     if (!buffer) return;
     state_->core->require_alive();
+    if (state_->recorder) state_->recorder->fill_zero(buffer.handle_);
     const cl_uchar zero = 0;
     state_->core->check("clEnqueueFillBuffer",
                         clEnqueueFillBuffer(state_->commands(), static_cast<cl_mem>(buffer.handle_.get()),
@@ -213,6 +220,19 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
         Where where = state.where;
         where.sentence = "Argument " + std::to_string(i) + " of kernel " + kernel.name() + " does not fit.";
         core.check("clSetKernelArg", code, where);
+    }
+    if (state_->recorder) {
+        std::vector<Workload::Argument> noted;
+        for (const Arguments::Value& value : arguments.values_) {
+            const char* const bytes = reinterpret_cast<const char*>(value.bytes.data());
+            if (!value.is_buffer)
+                noted.emplace_back(std::string(bytes, value.bytes.size()));
+            else if (value.buffer)
+                noted.emplace_back(state_->recorder->place_of(value.buffer));
+            else
+                noted.emplace_back(Workload::NoMemory{});
+        }
+        state_->recorder->launch(state, noted, items, local);
     }
     if (local == 0) {
         local = preferred_local();
@@ -253,6 +273,8 @@ const Options& Device::shape() const { return state_->shape; }
 std::map<std::string, std::string>& Device::choices() { return state_->choices; }
 const std::map<std::string, std::string>& Device::choices() const { return state_->choices; }
 void Device::set_shape(Options shape) { state_->shape = std::move(shape); }
+
+const std::string& Device::platform_version() const { return state_->platform_version; }
 
 double Device::compile_seconds() const { return state_->compile_seconds; }
 

@@ -203,6 +203,7 @@ void Renderer::record_pixel(unsigned x, unsigned y, SampleRange range,
 }
 
 Device& Renderer::device() const { return state_->first_alive().device(); }
+const FilmPart& Renderer::film_part() const { return state_->first_alive().part(); }
 const PackedScene& Renderer::packed() const { return *state_->packed; }
 const Features& Renderer::features() const { return state_->features; }
 double Renderer::build_seconds() const { return state_->build_seconds; }
