@@ -52,8 +52,9 @@ void add_capture(CLI::App& app, Exit& exit) {
         "capture", "Write one pass of a render as a file that triad-replay takes to other devices");
     declare(*command, o->request);
     // What asks for a picture, for the end of a render, or for more than one device's work.
-    for (const char* other : {"--output", "--film", "--resume", "--checkpoint", "--aov", "--json", "--error",
-                              "--time", "--adaptive", "--pixel", "--progress", "--half", "--spp"})
+    for (const char* other :
+         {"--output", "--film", "--resume", "--checkpoint", "--aov", "--json", "--error", "--time",
+          "--adaptive", "--pixel", "--progress", "--half", "--exposure", "--tonemap", "--bits", "--spp"})
         if (CLI::Option* option = command->get_option_no_throw(other)) command->remove_option(option);
     command->add_option("-o,--output", o->output, "The capture")->required()->type_name("FILE");
     command->add_option("--spp", o->request.spp, "Samples per pixel (default 4)")

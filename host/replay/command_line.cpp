@@ -1,6 +1,6 @@
 #include "replay/command_line.h"
 
-#include <map>
+#include <string>
 
 #include "base/log.h"
 #include "base/memory_limit.h"
@@ -15,11 +15,14 @@ void declare(CLI::App& app, ReplayRequest& o) {
         ->check(CLI::Range(0u, 100000u))
         ->type_name("N");
     app.add_option("--json", o.json, "Write the rows as JSON (-: standard output)")->type_name("FILE");
-    app.add_option("--verify", o.rule,
-                   "auto (the default: bits on the captured device and driver, else film), bits, or film: "
-                   "within tolerances")
-        ->transform(CLI::Transformer(std::map<std::string, Rule>{
-            {"auto", Rule::automatic}, {"bits", Rule::bits}, {"film", Rule::film}}))
+    app.add_option_function<std::string>(
+           "--verify",
+           [&o](const std::string& rule) {
+               o.rule = rule == "bits" ? Rule::bits : rule == "film" ? Rule::film : Rule::automatic;
+           },
+           "auto (the default: bits on the captured device and driver, else film), bits, or film: within "
+           "tolerances")
+        ->check(CLI::IsMember({"auto", "bits", "film"}))
         ->type_name("RULE");
     app.add_option("--kernels", o.kernels, "Take the programs from this folder instead of the capture")
         ->check(CLI::ExistingDirectory)

@@ -1,6 +1,5 @@
 #include "replay/include_tree.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -15,7 +14,7 @@ namespace triad {
 namespace {
 
 /// Lines of a file by number from 1; empty where a program says nothing of them.
-using Lines = std::map<std::size_t, std::string>;
+using FileLines = std::map<std::size_t, std::string>;
 
 struct Mark {
     std::size_t line;
@@ -37,7 +36,7 @@ bool read_mark(const std::string& text, Mark& mark) {
 
 /// A file that begins within another was included there; one that was included before is not named again, so
 /// that the line stays empty until another program fills it in.
-void add_program(const Workload::Source& source, std::map<std::string, Lines>& files) {
+void add_program(const Workload::Source& source, std::map<std::string, FileLines>& files) {
     std::istringstream lines(source.text);
     std::set<std::string> begun;
     std::string current, text;
@@ -57,10 +56,19 @@ void add_program(const Workload::Source& source, std::map<std::string, Lines>& f
     }
 }
 
+/// Without marks and empty lines, which an extracted folder need not have where the captured one did.
+std::string essence(const std::string& text) {
+    std::istringstream lines(text);
+    std::string all, line;
+    while (std::getline(lines, line))
+        if (!line.empty() && !line.starts_with("#line ")) all += line + "\n";
+    return all;
+}
+
 }  // namespace
 
 std::map<std::string, std::string> include_tree(const std::vector<Workload::Source>& sources) {
-    std::map<std::string, Lines> files;
+    std::map<std::string, FileLines> files;
     for (const Workload::Source& source : sources) add_program(source, files);
     std::map<std::string, std::string> texts;
     for (const auto& [path, lines] : files) {
@@ -92,7 +100,7 @@ std::vector<Workload::Source> from_folder(const std::vector<Workload::Source>& s
     std::vector<Workload::Source> now = sources;
     for (std::size_t i = 0; i < now.size(); ++i) {
         now[i].text = kernel_source::load(now[i].path);
-        if (now[i].text != sources[i].text) changed.push_back(now[i].path);
+        if (essence(now[i].text) != essence(sources[i].text)) changed.push_back(now[i].path);
     }
     return now;
 }

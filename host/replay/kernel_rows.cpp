@@ -8,9 +8,11 @@
 namespace triad {
 namespace {
 
-/// Of sorted values: that which the share q of them does not exceed.
+/// Of sorted values, between two of them where it lies there.
 double quantile(const std::vector<double>& sorted, double q) {
-    return sorted[std::min(std::size_t(q * double(sorted.size())), sorted.size() - 1)];
+    const double at = q * double(sorted.size() - 1);
+    const std::size_t below = std::size_t(at), above = std::min(below + 1, sorted.size() - 1);
+    return sorted[below] + (at - double(below)) * (sorted[above] - sorted[below]);
 }
 
 }  // namespace

@@ -118,10 +118,31 @@ std::vector<KernelRow> measured_alone(Replayer& replayer, const ReplayRequest& o
     return kernel_rows({{o.kernel, launch.items}}, replayer.take_times(), o.repeat);
 }
 
-std::vector<KernelRow> measured(Replayer& replayer, unsigned runs, const LocalSizes& sizes = {}) {
+/// Some drivers stamp the events of all launches with the same time.
+constexpr double least_share_of_events = 0.01;
+
+struct Measured {
+    std::vector<KernelRow> rows;
+    double ms_of_run = 0;  ///< by the host's clock: the least
+};
+
+Measured measured(Replayer& replayer, unsigned runs, const LocalSizes& sizes = {}) {
     replayer.take_times();
-    for (unsigned i = 0; i < runs; ++i) replayer.run(sizes);
-    return kernel_rows(items_of(replayer), replayer.take_times(), runs);
+    double least = INFINITY;
+    for (unsigned i = 0; i < runs; ++i) least = std::min(least, replayer.run(sizes));
+    Measured m{kernel_rows(items_of(replayer), replayer.take_times(), runs), 1e3 * least};
+    double events = 0;
+    for (const KernelRow& row : m.rows) events += row.ms_total;
+    if (events < least_share_of_events * m.ms_of_run)
+        warn(format(
+            "The driver's profiling events add up to %.3g of the %.3g ms that a run takes: it does not "
+            "time launches, and the rows say nothing.",
+            events, m.ms_of_run));
+    return m;
+}
+
+std::string text_of(const Measured& m) {
+    return table_text(m.rows) + format("A run takes %.3f ms by the host's clock\n", m.ms_of_run);
 }
 
 /// Of runs on one device.
@@ -171,19 +192,22 @@ Exit replay(const ReplayRequest& o) {
     std::vector<KernelRow> rows;
     if (o.repeat > 0 && !o.kernel.empty()) {
         rows = measured_alone(replayer, o, lines);
+        lines.say(table_text(rows));
     } else if (o.repeat > 0) {
-        rows = measured(replayer, o.repeat);
+        const Measured all = measured(replayer, o.repeat);
         require_same(replayer, film);
+        rows = all.rows;
+        lines.say(text_of(all));
+        more["run_ms"] = all.ms_of_run;
     }
-    if (!rows.empty()) lines.say(table_text(rows));
     if (o.tune && o.repeat > 0) {
         const std::vector<SizeTiming> timings = tune_sizes(replayer, film, o.repeat);
         lines.say(table_text(timings));
-        const std::vector<KernelRow> tuned = measured(replayer, o.repeat, best_of(timings));
+        const Measured tuned = measured(replayer, o.repeat, best_of(timings));
         require_same(replayer, film);
-        lines.say("With the best of them:\n" + table_text(tuned));
+        lines.say("With the best of them:\n" + text_of(tuned));
         more["sizes"] = to_json(timings);
-        more["tuned_rows"] = to_json(tuned);
+        more["tuned_rows"] = to_json(tuned.rows);
     }
     if (!o.json.empty()) write_report(o.json, "replay", &device.info(), to_json(rows), more);
     if (!verification.ok) throw Error(Exit::comparison, verification.sentence);

@@ -1,5 +1,7 @@
 #include "replay/replayer.h"
 
+#include <chrono>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <variant>
@@ -62,10 +64,13 @@ void Replayer::enqueue(const Workload::Command& command, const LocalSizes& sizes
     }
 }
 
-void Replayer::run(const LocalSizes& sizes) {
+double Replayer::run(const LocalSizes& sizes) {
     restore();
+    device_.finish();
+    const auto start = std::chrono::steady_clock::now();
     for (const Workload::Command& command : capture_.work.commands) enqueue(command, sizes);
     device_.finish();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 ReplayedFilm Replayer::film() {

@@ -21,8 +21,8 @@ class Replayer {
     /// Compiles the programs and allocates the buffers. Both must live as long. Throws DeviceError.
     Replayer(Device& device, const Capture& capture);
 
-    /// Everything from the beginning, to its end.
-    void run(const LocalSizes& sizes = {});
+    /// Everything from the beginning, to its end. Returns how many seconds it took by the host's clock.
+    double run(const LocalSizes& sizes = {});
     /// What the buffers of the film hold.
     ReplayedFilm film();
 

@@ -11,6 +11,8 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/hash.h"
+#include "base/memory_limit.h"
 #include "capture/capture.h"
 #include "capture/capture_header.h"
 #include "kernels/types.h"
@@ -141,6 +143,32 @@ TEST(CaptureFile, absurd_sizes_are_refused_before_memory_is_asked_for) {
         }
     EXPECT_NE(refused_when([](Capture& c) { c.width = std::uint64_t(1) << 40; }).find("size of its film"),
               std::string::npos);
+}
+
+TEST(CaptureFile, contents_that_claim_too_much_are_refused_before_memory_is_asked_for) {
+    const TemporaryFolder folder;
+    const std::string bytes = bytes_of(small_capture(), folder);
+    std::uint64_t header, contents;
+    std::memcpy(&header, bytes.data() + 16, sizeof header);
+    std::memcpy(&contents, bytes.data() + 32, sizeof contents);
+    const std::size_t extents = 40 + header, end = extents + contents * 16;
+    /// The first content says that it has so many bytes, and the checksum is right.
+    const auto with_size = [&](std::uint64_t size) {
+        std::string text = bytes;
+        std::memcpy(text.data() + extents + 8, &size, sizeof size);
+        text.replace(end, 32, Hash().add_value(std::uint64_t(0)).add(text.data(), end).hex());
+        return text;
+    };
+    EXPECT_NE(refused(folder, with_size(std::uint64_t(1) << 50)).find("no file of its size"),
+              std::string::npos);
+    EXPECT_NE(refused(folder, with_size(~std::uint64_t(0))).find("no file of its size"), std::string::npos);
+    EXPECT_NE(refused(folder, with_size(1 << 20)).find("cannot be expanded"), std::string::npos);
+    const std::uint64_t before = memory_limit();
+    set_memory_limit(memory_in_use() + (1 << 19));
+    write_file(folder / "bad.capture", with_size(1 << 20));
+    const std::string sentence = sentence_of(Exit::memory, [&] { read_capture(folder / "bad.capture"); });
+    set_memory_limit(before);
+    EXPECT_NE(sentence.find("What the capture"), std::string::npos) << sentence;
 }
 
 TEST(CaptureFile, places_and_ranges_outside_are_refused) {
