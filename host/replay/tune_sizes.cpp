@@ -37,15 +37,20 @@ std::vector<SizeTiming> tune_sizes(Replayer& replayer, const ReplayedFilm& film,
         for (const std::string& name : names) sizes[name] = local;
         replayer.run(sizes);  // some drivers compile a kernel for each size
         replayer.take_times();
-        for (unsigned i = 0; i < runs; ++i) replayer.run(sizes);
+        std::map<std::string, double> least;
+        for (unsigned i = 0; i < runs; ++i) {
+            replayer.run(sizes);
+            for (const auto& [name, each] : replayer.take_times()) {
+                const double sum = std::accumulate(each.begin(), each.end(), 0.0);
+                const auto [found, is_first] = least.try_emplace(name, sum);
+                if (!is_first) found->second = std::min(found->second, sum);
+            }
+        }
         if (replayer.film() != film)
             throw Error(Exit::comparison, "With groups of " + std::to_string(local) +
                                               " work-items the film has other bits: the driver is wrong, or "
                                               "kernels race with each other.");
-        auto times = replayer.take_times();
-        for (const std::string& name : names)
-            by_kernel[name].push_back(
-                {name, local, std::accumulate(times[name].begin(), times[name].end(), 0.0) / runs});
+        for (const std::string& name : names) by_kernel[name].push_back({name, local, least[name]});
     }
     std::vector<SizeTiming> all;
     for (const std::string& name : names) {

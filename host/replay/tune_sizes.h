@@ -11,7 +11,7 @@ namespace triad {
 struct SizeTiming {
     std::string kernel;
     std::size_t local = 0;
-    double seconds = 0;  ///< of all its launches in a run of the work
+    double seconds = 0;  ///< of all its launches in a run of the work, the shortest
     bool best = false;
 };
 

@@ -18,6 +18,7 @@ struct FilmDifference {
     std::uint64_t tiles = 0, tiles_off = 0;  ///< by more than tile_tolerance
     double largest_tile = 0;                 ///< relative difference
     double bias = 0;                         ///< median of the tiles' signed relative differences
+    double chance_bias = 0;                  ///< as large as this it may be by chance
     double rays = 0, captured_rays = 0;
 
     // The rule, which docs/capture.md explains.

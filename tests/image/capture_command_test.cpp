@@ -109,6 +109,7 @@ TEST(CaptureCommand, changed_kernels_are_found_out_by_bits_and_by_the_film) {
     const Outcome same = run_replay(file + " --repeat 0 --kernels " + kernels);
     EXPECT_EQ(same.exit, 0) << same.output;
     EXPECT_NE(same.output.find("the captured bits"), std::string::npos) << same.output;
+    EXPECT_NE(same.output.find("The programs are as captured"), std::string::npos) << same.output;
 
     // The planted fault: one percent brighter, all of it.
     const fs::path changed = fs::path(kernels) / "common/film.h";
