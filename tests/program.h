@@ -15,15 +15,20 @@ struct Outcome {
 };
 
 /// `arguments` as a shell reads them; `before` is shell text in front of the command: a variable, a limit.
-inline Outcome run_triad(const std::string& arguments, const std::string& before = "") {
+inline Outcome run_program(const std::string& program, const std::string& arguments,
+                           const std::string& before = "") {
     Outcome outcome;
-    FILE* pipe = ::popen((before + " '" TRIAD_PROGRAM "' " + arguments + " 2>&1").c_str(), "r");
+    FILE* pipe = ::popen((before + " '" + program + "' " + arguments + " 2>&1").c_str(), "r");
     std::array<char, 4096> buffer;
     for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
         outcome.output.append(buffer.data(), n);
     const int status = ::pclose(pipe);
     outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     return outcome;
+}
+
+inline Outcome run_triad(const std::string& arguments, const std::string& before = "") {
+    return run_program(TRIAD_PROGRAM, arguments, before);
 }
 
 /// What a file holds that it wrote.

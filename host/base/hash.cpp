@@ -1,5 +1,6 @@
 #include "base/hash.h"
 
+#define XXH_INLINE_ALL  // no library to link: triad-replay is carried to machines that lack it
 #include <xxhash.h>
 
 #include <cstdio>

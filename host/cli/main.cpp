@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
     add_check(app, exit);
     add_bench(app, exit);
     add_profile(app, exit);
+    add_capture(app, exit);
     for (CLI::App* command : app.get_subcommands(nullptr)) {
         add_common(*command);
         command->set_help_flag("-h,--help", "Show this help");

@@ -6,6 +6,7 @@
 
 #include "base/memory_limit.h"
 #include "device/opencl.h"
+#include "device/recorder.h"
 
 namespace triad {
 
@@ -50,6 +51,9 @@ cl_device_id restrict_to(const Device::Settings& settings, DeviceState& state) {
 }
 
 }  // namespace
+
+DeviceState::DeviceState() = default;
+DeviceState::~DeviceState() = default;
 
 }  // namespace opencl
 
@@ -146,6 +150,7 @@ void Device::write(const Buffer& buffer, const void* data, std::size_t bytes, st
     if (bytes == 0) return;
     state_->core->require_alive();
     state_->await();
+    if (state_->recorder) state_->recorder->write(buffer.handle_, data, bytes, offset);
     cl_event event = nullptr;
     state_->core->check(
         "clEnqueueWriteBuffer",
@@ -170,6 +175,7 @@ void Device::read(const Buffer& buffer, void* data, std::size_t bytes, std::size
 void Device::fill_zero(const Buffer& buffer) {
     if (!buffer) return;
     state_->core->require_alive();
+    if (state_->recorder) state_->recorder->fill_zero(buffer.handle_);
     const cl_uchar zero = 0;
     cl_event event = nullptr;
     state_->core->check(
@@ -202,6 +208,19 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
         Where where = state.where;
         where.sentence = "Argument " + std::to_string(i) + " of kernel " + kernel.name() + " does not fit.";
         core.check("clSetKernelArg", code, where);
+    }
+    if (state_->recorder) {
+        std::vector<Workload::Argument> noted;
+        for (const Arguments::Value& value : arguments.values_) {
+            const char* const bytes = reinterpret_cast<const char*>(value.bytes.data());
+            if (!value.is_buffer)
+                noted.emplace_back(std::string(bytes, value.bytes.size()));
+            else if (value.buffer)
+                noted.emplace_back(state_->recorder->place_of(value.buffer));
+            else
+                noted.emplace_back(Workload::NoMemory{});
+        }
+        state_->recorder->launch(state, noted, items, local);
     }
     if (local == 0) {
         local = preferred_local();
@@ -242,6 +261,8 @@ const Options& Device::shape() const { return state_->shape; }
 std::map<std::string, std::string>& Device::choices() { return state_->choices; }
 const std::map<std::string, std::string>& Device::choices() const { return state_->choices; }
 void Device::set_shape(Options shape) { state_->shape = std::move(shape); }
+
+const std::string& Device::platform_version() const { return state_->platform_version; }
 
 double Device::compile_seconds() const { return state_->compile_seconds; }
 

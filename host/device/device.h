@@ -27,6 +27,8 @@ struct KernelState;
 /// kernel a second time for grids beyond 65,535 items. A multiple of the largest work-group.
 constexpr std::size_t largest_launch_items = 65472;
 
+struct Workload;  // device/workload.h
+
 /// What `triad devices` shows. Zero is a legal answer for every number.
 struct DeviceInfo {
     std::size_t index = 0;  ///< over all platforms; stable while nothing is plugged in or out
@@ -112,6 +114,7 @@ class Arguments {
     template <class T>
     requires(std::is_arithmetic_v<T>) Arguments& add(T value) { return add_bytes(&value, sizeof value); }
     Arguments& add(const Arguments& others);
+    Arguments& add_bytes(const void* data, std::size_t size);  ///< of a value; copied
 
   private:
     friend class Device;
@@ -120,9 +123,7 @@ class Arguments {
         bool is_buffer;
         std::vector<std::byte> bytes;
     };
-    Arguments& add_bytes(const void* data,
-                         std::size_t size);  // copies; any buffer stays alive until the launch
-    std::vector<Value> values_;
+    std::vector<Value> values_;  // any buffer stays alive until the launch
 };
 
 /// "-D NAME=VALUE" for a program; ordered, so that equal options give equal cache keys.
@@ -153,6 +154,7 @@ class Program {
 struct KernelTime {
     std::size_t launches = 0;
     double seconds = 0;
+    std::vector<double> each;  ///< of the launches, in their order
 };
 
 /// What a command of the queue does.
@@ -250,6 +252,8 @@ class Device {
     /// process, and on disk where the driver has no cache of its own. `source` overrides the text (tests).
     Program build(const std::string& path, const Options& options = {});
     Program build_source(const std::string& name, const std::string& source, const Options& options = {});
+    /// The same for a text that is flattened already, whatever the device's shape is.
+    Program build_flattened(const std::string& name, const std::string& text, const Options& options);
 
     /// Enqueues `items` work-items, rounded up to a multiple of `local`: kernels guard against the excess. 0
     /// stands for preferred_local(), or less where the kernel allows less; another that it does not allow is
@@ -273,6 +277,13 @@ class Device {
     std::map<std::string, std::string>& choices();
     const std::map<std::string, std::string>& choices() const;
 
+    /// From here on what the device is told to do (writes, fills, launches) is noted in `workload` too, with
+    /// the programs and the memory that this needs; null: no more.
+    void record(Workload* workload);
+    /// Where the recorded workload has this buffer; none where no command named it.
+    std::optional<std::size_t> recorded(const Buffer& buffer) const;
+
+    const std::string& platform_version() const;           ///< of the driver's platform, as it says
     double compile_seconds() const;                        ///< spent in build() so far
     const std::vector<Compilation>& compilations() const;  ///< of build(), in order
     std::map<std::string, KernelTime> times();             ///< by kernel; empty unless settings.profile

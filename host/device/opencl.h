@@ -69,17 +69,23 @@ std::shared_ptr<void> own(Handle handle, cl_int (*release)(Handle), std::shared_
 struct ProgramState {
     std::shared_ptr<Core> core;
     std::shared_ptr<void> handle;
-    std::string path, options;
+    std::string path, options, text;
+    Options definitions;  ///< those of `options` that are not the driver's
 };
 
 struct KernelState {
+    std::shared_ptr<const ProgramState> program;
     std::shared_ptr<void> handle;
     Where where;
     cl_uint argument_count = 0;
     std::size_t max_local = 0;  ///< 0: the driver did not say
 };
 
+class Recorder;
+
 struct DeviceState {
+    DeviceState();
+    ~DeviceState();
     std::shared_ptr<Core> core = std::make_shared<Core>();
     std::string platform_version;
     bool profile = false;
@@ -97,6 +103,7 @@ struct DeviceState {
     Options shape;
     std::map<std::string, std::string> choices;
     double compile_seconds = 0, patience = 0;
+    std::unique_ptr<Recorder> recorder;  ///< null: nothing is recorded
 
     cl_context cl() const { return static_cast<cl_context>(context.get()); }
     cl_command_queue commands() const { return static_cast<cl_command_queue>(queue.get()); }

@@ -125,12 +125,15 @@ Program Device::build(const std::string& path, const Options& options) {
 }
 
 Program Device::build_source(const std::string& name, const std::string& source, const Options& options) {
+    Options all = options;
+    all.insert(state_->shape.begin(), state_->shape.end());
+    return build_flattened(name, kernel_source::flatten(name, source), all);
+}
+
+Program Device::build_flattened(const std::string& name, const std::string& text, const Options& options) {
     opencl::DeviceState& device = *state_;
     device.core->require_alive();
-    const std::string text = kernel_source::flatten(name, source);
-    Options all = options;
-    all.insert(device.shape.begin(), device.shape.end());
-    const std::string flags = opencl::flags(device.core->info, all);
+    const std::string flags = opencl::flags(device.core->info, options);
     Program& program = device.programs[{text, flags}];
     if (program.state_) return program;
     const auto start = std::chrono::steady_clock::now();
@@ -138,6 +141,8 @@ Program Device::build_source(const std::string& name, const std::string& source,
     state->core = device.core;
     state->path = name;
     state->options = flags;
+    state->text = text;
+    state->definitions = options;
     const fs::path cached = opencl::cache_path(device, text, flags);
     state->handle = opencl::load_binary(device, cached, flags);
     if (!state->handle) {
@@ -156,6 +161,7 @@ Kernel Program::kernel(const std::string& name) const {
     opencl::Core& core = *program.core;
     core.require_alive();
     auto state = std::make_shared<opencl::KernelState>();
+    state->program = state_;
     state->where = {.program = program.path, .kernel = name, .options = program.options};
     cl_int code = CL_SUCCESS;
     cl_kernel handle = clCreateKernel(static_cast<cl_program>(program.handle.get()), name.c_str(), &code);

@@ -59,7 +59,8 @@ std::map<std::string, KernelTime> Device::times() {
         if (command.kind != CommandKind::kernel) continue;
         KernelTime& sum = times[command.name];
         ++sum.launches;
-        sum.seconds += static_cast<double>(command.end - command.start) * 1e-9;
+        sum.each.push_back(static_cast<double>(command.end - command.start) * 1e-9);
+        sum.seconds += sum.each.back();
     }
     return times;
 }

@@ -217,6 +217,7 @@ std::vector<double> Renderer::time_tiles(unsigned samples) {
 MemoryUse Renderer::device_memory() const { return state_->first_alive().memory(); }
 
 Device& Renderer::device() const { return state_->first_alive().device(); }
+const FilmPart& Renderer::film_part() const { return state_->first_alive().part(); }
 const PackedScene& Renderer::packed() const { return *state_->packed; }
 const Features& Renderer::features() const { return state_->features; }
 double Renderer::build_seconds() const { return state_->build_seconds; }

@@ -11,6 +11,7 @@
 #include "scene/film.h"
 #include "scene/scene.h"
 #include "trace/feature_planes.h"
+#include "trace/film_part.h"
 #include "trace/recorder.h"
 #include "trace/work_counter.h"
 
@@ -99,6 +100,8 @@ class Renderer {
 
     /// The first that has not failed.
     Device& device() const;
+    /// The film as it lies on that device.
+    const FilmPart& film_part() const;
     const PackedScene& packed() const;
     const Features& features() const;
     /// Who brings the light, and why: a sentence.

@@ -9,8 +9,6 @@
 namespace triad {
 namespace {
 
-using Json = nlohmann::json;
-
 std::string number(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.9g", value);
@@ -19,9 +17,9 @@ std::string number(double value) {
 
 /// The settings as the renderer wrote them; an empty object when the text is none (it is only for
 /// information).
-Json settings_of(const Film& film) {
-    Json settings = Json::parse(film.settings_text, nullptr, false);
-    return settings.is_object() ? settings : Json::object();
+nlohmann::json settings_of(const Film& film) {
+    nlohmann::json settings = nlohmann::json::parse(film.settings_text, nullptr, false);
+    return settings.is_object() ? settings : nlohmann::json::object();
 }
 
 }  // namespace
@@ -33,7 +31,7 @@ Metadata metadata_of(const Film& film) {
     Metadata metadata = {
         {"triad:version", TRIAD_VERSION},
         {"triad:spp",
-         numbers.least == numbers.most ? std::to_string(numbers.least) : Json(numbers.mean).dump()},
+         numbers.least == numbers.most ? std::to_string(numbers.least) : nlohmann::json(numbers.mean).dump()},
         {"triad:samples", std::to_string(numbers.total)},
         {"triad:scene", film.scene},
         {"triad:settings", film.settings},
@@ -52,7 +50,7 @@ Metadata metadata_of(const Film& film) {
         metadata["triad:spp_min"] = std::to_string(numbers.least);
         metadata["triad:spp_max"] = std::to_string(numbers.most);
     }
-    const Json settings = settings_of(film);
+    const nlohmann::json settings = settings_of(film);
     if (settings.contains("seed")) metadata["triad:seed"] = settings["seed"].dump();
     return metadata;
 }

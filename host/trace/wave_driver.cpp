@@ -101,6 +101,8 @@ class WaveStages : public PathDriver {
             std::array<std::uint32_t, 2> next;
             device_.read(pools_.arrays().next_pixel, next.data(), sizeof next);
             if (next[1] == slots_) {
+                if (device_.recorded(pools_.arrays().next_pixel))
+                    enqueue(least_rounds);  // elsewhere a path may go on for longer
                 slots_ = 0;
                 expected_ = std::clamp(rounds_ * 3 / 4, least_rounds, 4 * most_rounds);
             } else {

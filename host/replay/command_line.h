@@ -1,0 +1,27 @@
+#pragma once
+/// What triad-replay was asked for, and the doing of it.
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "replay/verify.h"
+
+namespace triad {
+
+struct ReplayRequest {
+    std::string capture, device, json, kernels, extract, kernel;
+    unsigned threads = 0;
+    unsigned repeat = 5;
+    std::optional<std::size_t> launch;  ///< of `kernel`, from 1; none: the longest
+    Rule rule = Rule::automatic;
+    bool tune = false, check = false;
+};
+
+/// Declares the options. `request` must outlive the parsing.
+void declare(CLI::App& app, ReplayRequest& request);
+
+/// Prints, and writes what is asked for. Throws Error.
+Exit replay(const ReplayRequest& request);
+
+}  // namespace triad

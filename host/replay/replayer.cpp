@@ -1,0 +1,128 @@
+#include "replay/replayer.h"
+
+#include <chrono>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <variant>
+
+namespace triad {
+namespace {
+
+/// What the capture's device was best at suits others of its kind.
+std::size_t first_local(const Device& device, const CaptureOrigin& origin) {
+    return device.info().type == origin.type && origin.local > 0 ? origin.local : device.preferred_local();
+}
+
+}  // namespace
+
+Replayer::Replayer(Device& device, const Capture& capture)
+    : device_(device), capture_(capture), local_(first_local(device, capture.origin)) {
+    const Workload& work = capture.work;
+    std::vector<Program> programs;
+    for (const Workload::Source& source : work.sources)
+        programs.push_back(device.build_flattened(source.path, source.text, source.options));
+    for (const Workload::Function& function : work.functions)
+        kernels_.push_back(programs[function.source].kernel(function.name));
+    for (const Workload::Memory& memory : work.memories) {
+        if (memory.read_only && memory.content)
+            buffers_.push_back(device.share(std::span<const std::byte>(*memory.content), memory.content));
+        else
+            buffers_.push_back(device.allocate(memory.bytes));
+    }
+    for (const auto& list : work.argument_lists) {
+        Arguments& arguments = arguments_.emplace_back();
+        for (const Workload::Argument& argument : list) {
+            if (const auto* place = std::get_if<std::size_t>(&argument))
+                arguments.add(buffers_[*place]);
+            else if (const auto* bytes = std::get_if<std::string>(&argument))
+                arguments.add_bytes(bytes->data(), bytes->size());
+            else
+                arguments.add(Buffer{});
+        }
+    }
+}
+
+void Replayer::restore() {
+    for (std::size_t i = 0; i < buffers_.size(); ++i) {
+        const Workload::Memory& memory = capture_.work.memories[i];
+        if (memory.content && !memory.read_only)
+            device_.write(buffers_[i], memory.content->data(), memory.bytes);
+    }
+}
+
+void Replayer::enqueue(const Workload::Command& command, const LocalSizes& sizes) {
+    if (const auto* write = std::get_if<Workload::Write>(&command)) {
+        device_.write(buffers_[write->memory], write->content->data(), write->content->size(), write->offset);
+    } else if (const auto* fill = std::get_if<Workload::FillZero>(&command)) {
+        device_.fill_zero(buffers_[fill->memory]);
+    } else {
+        const auto& launch = std::get<Workload::Launch>(command);
+        const auto size = sizes.find(kernel_of(launch));
+        device_.set_preferred_local(size == sizes.end() ? local_ : size->second);
+        device_.run(kernels_[launch.function], arguments_[launch.arguments], launch.items, launch.local);
+    }
+}
+
+double Replayer::run(const LocalSizes& sizes) {
+    restore();
+    device_.finish();
+    const auto start = std::chrono::steady_clock::now();
+    for (const Workload::Command& command : capture_.work.commands) enqueue(command, sizes);
+    device_.finish();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ReplayedFilm Replayer::film() {
+    ReplayedFilm film;
+    for (const CapturedArray& array : capture_.film) {
+        film.emplace_back(array.content->size());
+        device_.read(buffers_[array.memory], film.back().data(), film.back().size());
+    }
+    return film;
+}
+
+std::vector<std::size_t> Replayer::launches_of(const std::string& kernel) const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < capture_.work.commands.size(); ++i) {
+        const auto* launch = std::get_if<Workload::Launch>(&capture_.work.commands[i]);
+        if (launch && kernel_of(*launch) == kernel) places.push_back(i);
+    }
+    return places;
+}
+
+void Replayer::repeat(std::size_t place, unsigned times) {
+    restore();
+    const auto& commands = capture_.work.commands;
+    for (std::size_t i = 0; i < place; ++i) enqueue(commands[i], {});
+    // Which of its buffers a kernel writes it does not say, so that all come back that it may.
+    std::map<std::size_t, AlignedVector<std::byte>> before;
+    const auto& launch = std::get<Workload::Launch>(commands[place]);
+    for (const Workload::Argument& argument : capture_.work.argument_lists[launch.arguments]) {
+        const auto* memory = std::get_if<std::size_t>(&argument);
+        if (!memory || capture_.work.memories[*memory].read_only) continue;
+        auto& content = before[*memory];
+        content.resize(buffers_[*memory].bytes());
+        device_.read(buffers_[*memory], content.data(), content.size());
+    }
+    take_times();
+    for (unsigned i = 0; i < times; ++i) {
+        for (const auto& [memory, content] : before)
+            device_.write(buffers_[memory], content.data(), content.size());
+        enqueue(commands[place], {});
+        device_.finish();
+    }
+}
+
+std::map<std::string, std::vector<double>> Replayer::take_times() {
+    std::map<std::string, std::vector<double>> times;
+    for (const auto& [kernel, time] : device_.times()) {
+        std::size_t& taken = taken_[kernel];
+        if (time.each.size() > taken)
+            times[kernel].assign(time.each.begin() + std::ptrdiff_t(taken), time.each.end());
+        taken = time.each.size();
+    }
+    return times;
+}
+
+}  // namespace triad
