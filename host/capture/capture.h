@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "device/workload.h"
+#include "device/recording.h"
 
 namespace triad {
 
@@ -20,9 +20,9 @@ struct CapturedArray {
         counters,   ///< COUNTERS pairs of them
     };
     What what = What::sums;
-    std::size_t memory = 0;  ///< place in the workload's memories; all of it
+    std::size_t memory = 0;  ///< place among the recording's memories; all of it
     std::uint64_t first_pixel = 0, pixels = 0;
-    Workload::Content content;
+    Recording::Content content;
 };
 constexpr const char* captured_array_names[] = {"sums", "half_sums", "samples", "counters"};
 
@@ -37,7 +37,7 @@ struct CaptureOrigin {
 struct Capture {
     CaptureOrigin origin;
     std::uint64_t width = 0, height = 0, bins = 0;  ///< of the film's crop; bins of a pixel
-    Workload work;
+    Recording work;
     std::vector<CapturedArray> film;
 };
 

@@ -30,20 +30,20 @@ bool is_plain_word(const std::string& word) {
     });
 }
 
-void check_commands(const Workload& work, const Refuse& refuse) {
+void check_commands(const Recording& work, const Refuse& refuse) {
     const auto within = [&](std::size_t place, const auto& all, const char* what) {
         if (place >= all.size()) refuse(std::string("it names a ") + what + " that it does not have");
     };
-    for (const Workload::Command& command : work.commands) {
-        if (const auto* write = std::get_if<Workload::Write>(&command)) {
+    for (const Recording::Command& command : work.commands) {
+        if (const auto* write = std::get_if<Recording::Write>(&command)) {
             within(write->memory, work.memories, "buffer");
             const std::uint64_t bytes = work.memories[write->memory].bytes;
             if (write->offset > bytes || write->content->size() > bytes - write->offset)
                 refuse("it writes beyond the end of a buffer");
-        } else if (const auto* fill = std::get_if<Workload::FillZero>(&command)) {
+        } else if (const auto* fill = std::get_if<Recording::FillZero>(&command)) {
             within(fill->memory, work.memories, "buffer");
         } else {
-            const auto& launch = std::get<Workload::Launch>(command);
+            const auto& launch = std::get<Recording::Launch>(command);
             within(launch.function, work.functions, "kernel");
             within(launch.arguments, work.argument_lists, "list of arguments");
             if (launch.items == 0 || launch.items > largest_launch || launch.local > largest_local)
@@ -89,22 +89,22 @@ void check_film(const Capture& capture, const Refuse& refuse) {
 }  // namespace
 
 void check_capture(const Capture& capture, const Refuse& refuse) {
-    const Workload& work = capture.work;
-    for (const Workload::Source& source : work.sources) {
+    const Recording& work = capture.work;
+    for (const Recording::Source& source : work.sources) {
         if (!is_plain_path(source.path)) refuse("a program has no plain path");
         for (const auto& [name, value] : source.options)
             if (!is_plain_word(name) || !is_plain_word(value))
                 refuse("an option of a program is no plain word");
     }
-    for (const Workload::Function& function : work.functions)
+    for (const Recording::Function& function : work.functions)
         if (function.source >= work.sources.size()) refuse("it names a program that it does not have");
-    for (const Workload::Memory& memory : work.memories) {
+    for (const Recording::Memory& memory : work.memories) {
         if (memory.bytes == 0) refuse("a buffer is empty");
         if (memory.content && memory.content->size() != memory.bytes)
             refuse("what a buffer holds has another size than the buffer");
     }
     for (const auto& list : work.argument_lists)
-        for (const Workload::Argument& argument : list) {
+        for (const Recording::Argument& argument : list) {
             const auto* const place = std::get_if<std::size_t>(&argument);
             if (place && *place >= work.memories.size()) refuse("it names a buffer that it does not have");
         }

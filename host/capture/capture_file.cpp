@@ -125,7 +125,7 @@ Capture CaptureReader::read() {
         if (__builtin_add_overflow(all, extent.bytes, &all)) refuse("no file of its size holds so much");
     }
     require_memory(all, "What the capture " + path_.string() + " holds");
-    std::vector<Workload::Content> contents;
+    std::vector<Recording::Content> contents;
     for (const Extent& extent : extents) {
         const std::string stored = take_text(extent.stored);
         check(contents.size() + 1, stored, "what it holds");
@@ -156,7 +156,7 @@ void write_capture(const fs::path& path, const Capture& capture) {
                     "The pass has too many launches for a capture; take fewer samples or a smaller picture.");
     std::vector<std::string> stored;
     std::vector<Extent> extents;
-    for (const Workload::Content& content : table.contents()) {
+    for (const Recording::Content& content : table.contents()) {
         stored.push_back(compressed(content->data(), content->size()));
         extents.push_back({stored.back().size(), content->size()});
     }

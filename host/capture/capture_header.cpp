@@ -12,7 +12,7 @@ namespace {
 
 using json = nlohmann::json;
 using Refuse = std::function<void(const std::string&)>;
-using ContentAt = std::function<Workload::Content(std::size_t)>;
+using ContentAt = std::function<Recording::Content(std::size_t)>;
 
 /// Values are bytes, which text in JSON cannot be.
 std::string hex_of(const std::string& bytes) {
@@ -38,34 +38,34 @@ std::string bytes_of(const std::string& hex, const Refuse& refuse) {
     return bytes;
 }
 
-json to_json(const Workload::Argument& argument) {
+json to_json(const Recording::Argument& argument) {
     if (const auto* place = std::get_if<std::size_t>(&argument)) return *place;
     if (const auto* bytes = std::get_if<std::string>(&argument)) return hex_of(*bytes);
     return nullptr;
 }
 
-Workload::Argument argument_of(const json& argument, const Refuse& refuse) {
-    if (argument.is_null()) return Workload::NoMemory{};
+Recording::Argument argument_of(const json& argument, const Refuse& refuse) {
+    if (argument.is_null()) return Recording::NoMemory{};
     if (argument.is_string()) return bytes_of(argument.get<std::string>(), refuse);
     return argument.get<std::size_t>();
 }
 
 // Short: there are many of them. The number of their members tells them apart.
-json to_json(const Workload::Command& command, ContentTable& contents) {
-    if (const auto* write = std::get_if<Workload::Write>(&command))
+json to_json(const Recording::Command& command, ContentTable& contents) {
+    if (const auto* write = std::get_if<Recording::Write>(&command))
         return {write->memory, write->offset, contents.place_of(write->content)};
-    if (const auto* fill = std::get_if<Workload::FillZero>(&command)) return json::array({fill->memory});
-    const auto& launch = std::get<Workload::Launch>(command);
+    if (const auto* fill = std::get_if<Recording::FillZero>(&command)) return json::array({fill->memory});
+    const auto& launch = std::get<Recording::Launch>(command);
     return {launch.function, launch.arguments, launch.items, launch.local};
 }
 
-Workload::Command command_of(const json& command, const ContentAt& content_at, const Refuse& refuse) {
+Recording::Command command_of(const json& command, const ContentAt& content_at, const Refuse& refuse) {
     if (!command.is_array() || command.empty() || command.size() == 2 || command.size() > 4)
         refuse("a command is no fill, no write and no launch");
     const auto number = [&](std::size_t i) { return command.at(i).get<std::uint64_t>(); };
-    if (command.size() == 1) return Workload::FillZero{number(0)};
-    if (command.size() == 3) return Workload::Write{number(0), number(1), content_at(number(2))};
-    return Workload::Launch{number(0), number(1), number(2), number(3)};
+    if (command.size() == 1) return Recording::FillZero{number(0)};
+    if (command.size() == 3) return Recording::Write{number(0), number(1), content_at(number(2))};
+    return Recording::Launch{number(0), number(1), number(2), number(3)};
 }
 
 json to_json(const CaptureOrigin& origin) {
@@ -82,18 +82,18 @@ CaptureOrigin origin_of(const json& origin) {
         text("platform"), text("platform_version"), text("type"),   origin.at("local").get<std::uint64_t>()};
 }
 
-Workload::Content text_content(const std::string& text) {
+Recording::Content text_content(const std::string& text) {
     const auto* const bytes = reinterpret_cast<const std::byte*>(text.data());
     return std::make_shared<const AlignedVector<std::byte>>(bytes, bytes + text.size());
 }
 
-std::string text_of(const Workload::Content& content) {
+std::string text_of(const Recording::Content& content) {
     return {reinterpret_cast<const char*>(content->data()), content->size()};
 }
 
-void add_memories(Workload& work, const json& header, const ContentAt& content_at) {
+void add_memories(Recording& work, const json& header, const ContentAt& content_at) {
     for (const json& memory : header.at("memories")) {
-        Workload::Memory& added = work.memories.emplace_back();
+        Recording::Memory& added = work.memories.emplace_back();
         added.bytes = memory.at("bytes").get<std::uint64_t>();
         added.read_only = memory.at("read_only").get<bool>();
         if (!memory.at("content").is_null())
@@ -112,7 +112,7 @@ CapturedArray array_of(const json& array, const ContentAt& content_at, const Ref
 
 }  // namespace
 
-std::size_t ContentTable::place_of(const Workload::Content& content) {
+std::size_t ContentTable::place_of(const Recording::Content& content) {
     const auto [known, is_new] = known_.try_emplace(content.get(), contents_.size());
     if (!is_new) return known->second;
     const std::string hash = Hash().add(content->data(), content->size()).hex();
@@ -122,25 +122,25 @@ std::size_t ContentTable::place_of(const Workload::Content& content) {
 }
 
 std::string capture_header(const Capture& capture, ContentTable& contents) {
-    const Workload& work = capture.work;
+    const Recording& work = capture.work;
     json sources = json::array(), functions = json::array(), memories = json::array(), lists = json::array(),
          commands = json::array(), film = json::array();
-    for (const Workload::Source& source : work.sources)
+    for (const Recording::Source& source : work.sources)
         sources.push_back({{"path", source.path},
                            {"options", source.options},
                            {"text", contents.place_of(text_content(source.text))}});
-    for (const Workload::Function& function : work.functions)
+    for (const Recording::Function& function : work.functions)
         functions.push_back({{"source", function.source}, {"name", function.name}});
-    for (const Workload::Memory& memory : work.memories)
+    for (const Recording::Memory& memory : work.memories)
         memories.push_back({{"bytes", memory.bytes},
                             {"read_only", memory.read_only},
                             {"content", memory.content ? json(contents.place_of(memory.content)) : json()}});
     for (const auto& list : work.argument_lists) {
         json arguments = json::array();
-        for (const Workload::Argument& argument : list) arguments.push_back(to_json(argument));
+        for (const Recording::Argument& argument : list) arguments.push_back(to_json(argument));
         lists.push_back(std::move(arguments));
     }
-    for (const Workload::Command& command : work.commands) commands.push_back(to_json(command, contents));
+    for (const Recording::Command& command : work.commands) commands.push_back(to_json(command, contents));
     for (const CapturedArray& array : capture.film)
         film.push_back({{"what", captured_array_names[std::size_t(array.what)]},
                         {"memory", array.memory},
@@ -167,7 +167,7 @@ Capture capture_of_header(const std::string& text, const ContentAt& content_at, 
         capture.width = film.at("width").get<std::uint64_t>();
         capture.height = film.at("height").get<std::uint64_t>();
         capture.bins = film.at("bins").get<std::uint64_t>();
-        Workload& work = capture.work;
+        Recording& work = capture.work;
         for (const json& source : header.at("sources"))
             work.sources.push_back({source.at("path").get<std::string>(),
                                     text_of(content_at(source.at("text").get<std::size_t>())),

@@ -34,10 +34,10 @@ Exit run(const CaptureOptions& o) {
     const Capture capture = capture_pass(std::move(request));
     write_capture(o.output, capture);
     std::size_t launches = 0;
-    for (const Workload::Command& command : capture.work.commands)
-        launches += std::holds_alternative<Workload::Launch>(command);
+    for (const Recording::Command& command : capture.work.commands)
+        launches += std::holds_alternative<Recording::Launch>(command);
     std::uint64_t bytes = 0;
-    for (const Workload::Memory& memory : capture.work.memories) bytes += memory.bytes;
+    for (const Recording::Memory& memory : capture.work.memories) bytes += memory.bytes;
     inform(format("Captured %zu launches of %zu kernels over %zu buffers of %s in all: %s has %s", launches,
                   capture.work.functions.size(), capture.work.memories.size(), bytes_text(bytes).c_str(),
                   o.output.c_str(), bytes_text(std::filesystem::file_size(o.output)).c_str()));

@@ -210,16 +210,10 @@ void Device::run(const Kernel& kernel, const Arguments& arguments, std::size_t i
         core.check("clSetKernelArg", code, where);
     }
     if (state_->recorder) {
-        std::vector<Workload::Argument> noted;
-        for (const Arguments::Value& value : arguments.values_) {
-            const char* const bytes = reinterpret_cast<const char*>(value.bytes.data());
-            if (!value.is_buffer)
-                noted.emplace_back(std::string(bytes, value.bytes.size()));
-            else if (value.buffer)
-                noted.emplace_back(state_->recorder->place_of(value.buffer));
-            else
-                noted.emplace_back(Workload::NoMemory{});
-        }
+        std::vector<Recording::Argument> noted;
+        for (const Arguments::Value& value : arguments.values_)
+            noted.push_back(value.is_buffer ? state_->recorder->argument(value.buffer)
+                                            : opencl::Recorder::argument(value.bytes));
         state_->recorder->launch(state, noted, items, local);
     }
     if (local == 0) {

@@ -27,7 +27,7 @@ struct KernelState;
 /// kernel a second time for grids beyond 65,535 items. A multiple of the largest work-group.
 constexpr std::size_t largest_launch_items = 65472;
 
-struct Workload;  // device/workload.h
+struct Recording;  // device/recording.h
 
 /// What `triad devices` shows. Zero is a legal answer for every number.
 struct DeviceInfo {
@@ -277,10 +277,10 @@ class Device {
     std::map<std::string, std::string>& choices();
     const std::map<std::string, std::string>& choices() const;
 
-    /// From here on what the device is told to do (writes, fills, launches) is noted in `workload` too, with
+    /// From here on what the device is told to do (writes, fills, launches) is noted in `recording` too, with
     /// the programs and the memory that this needs; null: no more.
-    void record(Workload* workload);
-    /// Where the recorded workload has this buffer; none where no command named it.
+    void record(Recording* recording);
+    /// Where the recording has this buffer; none where no command named it.
     std::optional<std::size_t> recorded(const Buffer& buffer) const;
 
     const std::string& platform_version() const;           ///< of the driver's platform, as it says

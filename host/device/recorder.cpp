@@ -16,9 +16,9 @@ T property(cl_mem memory, cl_mem_info what) {
 }
 
 /// Equal lists have equal texts.
-std::string text_of(const std::vector<Workload::Argument>& arguments) {
+std::string text_of(const std::vector<Recording::Argument>& arguments) {
     std::string text;
-    for (const Workload::Argument& argument : arguments) {
+    for (const Recording::Argument& argument : arguments) {
         if (const auto* place = std::get_if<std::size_t>(&argument))
             text += "m" + std::to_string(*place);
         else if (const auto* bytes = std::get_if<std::string>(&argument))
@@ -36,7 +36,7 @@ std::size_t Recorder::place_of(const Handle& handle, bool overwritten) {
     if (!is_new) return found->second;
     kept_.push_back(handle);
     const auto memory = static_cast<cl_mem>(handle.get());
-    Workload::Memory& noted = to_.memories.emplace_back();
+    Recording::Memory& noted = to_.memories.emplace_back();
     noted.bytes = property<std::size_t>(memory, CL_MEM_SIZE);
     noted.read_only = property<cl_mem_flags>(memory, CL_MEM_FLAGS) & CL_MEM_READ_ONLY;
     if (overwritten) return found->second;
@@ -60,12 +60,21 @@ void Recorder::write(const Handle& memory, const void* data, std::size_t bytes, 
     const std::size_t place = place_of(memory, whole);
     AlignedVector<std::byte> content(bytes);
     std::memcpy(content.data(), data, bytes);
-    to_.commands.push_back(
-        Workload::Write{place, offset, std::make_shared<const AlignedVector<std::byte>>(std::move(content))});
+    to_.commands.push_back(Recording::Write{
+        place, offset, std::make_shared<const AlignedVector<std::byte>>(std::move(content))});
 }
 
 void Recorder::fill_zero(const Handle& memory) {
-    to_.commands.push_back(Workload::FillZero{place_of(memory, true)});
+    to_.commands.push_back(Recording::FillZero{place_of(memory, true)});
+}
+
+Recording::Argument Recorder::argument(const Handle& memory) {
+    if (!memory) return Recording::NoMemory{};
+    return place_of(memory);
+}
+
+Recording::Argument Recorder::argument(const std::vector<std::byte>& value) {
+    return std::string(reinterpret_cast<const char*>(value.data()), value.size());
 }
 
 std::size_t Recorder::function_of(const KernelState& kernel) {
@@ -78,17 +87,17 @@ std::size_t Recorder::function_of(const KernelState& kernel) {
     return function->second;
 }
 
-void Recorder::launch(const KernelState& kernel, const std::vector<Workload::Argument>& arguments,
+void Recorder::launch(const KernelState& kernel, const std::vector<Recording::Argument>& arguments,
                       std::size_t items, std::size_t local) {
     const auto [list, is_new] = argument_lists_.try_emplace(text_of(arguments), to_.argument_lists.size());
     if (is_new) to_.argument_lists.push_back(arguments);
-    to_.commands.push_back(Workload::Launch{function_of(kernel), list->second, items, local});
+    to_.commands.push_back(Recording::Launch{function_of(kernel), list->second, items, local});
 }
 
 }  // namespace opencl
 
-void Device::record(Workload* workload) {
-    state_->recorder = workload ? std::make_unique<opencl::Recorder>(*state_, *workload) : nullptr;
+void Device::record(Recording* recording) {
+    state_->recorder = recording ? std::make_unique<opencl::Recorder>(*state_, *recording) : nullptr;
 }
 
 std::optional<std::size_t> Device::recorded(const Buffer& buffer) const {

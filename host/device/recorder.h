@@ -4,11 +4,12 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "device/opencl.h"
-#include "device/workload.h"
+#include "device/recording.h"
 
 namespace triad::opencl {
 
@@ -16,12 +17,14 @@ namespace triad::opencl {
 /// that it had when recording began, and these are read.
 class Recorder {
   public:
-    Recorder(DeviceState& state, Workload& to) : state_(state), to_(to) {}
+    Recorder(DeviceState& state, Recording& to) : state_(state), to_(to) {}
 
     using Handle = std::shared_ptr<void>;
     void write(const Handle& memory, const void* data, std::size_t bytes, std::size_t offset);
     void fill_zero(const Handle& memory);
-    void launch(const KernelState& kernel, const std::vector<Workload::Argument>& arguments,
+    Recording::Argument argument(const Handle& memory);  ///< which may be null
+    static Recording::Argument argument(const std::vector<std::byte>& value);
+    void launch(const KernelState& kernel, const std::vector<Recording::Argument>& arguments,
                 std::size_t items, std::size_t local);
 
     /// Its place among the memories; `overwritten`: what it held does not matter.
@@ -31,7 +34,7 @@ class Recorder {
 
   private:
     DeviceState& state_;
-    Workload& to_;
+    Recording& to_;
     std::map<void*, std::size_t> memories_;
     std::vector<Handle> kept_;  ///< so that no other memory gets the handle of one that was met
     std::map<const ProgramState*, std::size_t> sources_;

@@ -18,7 +18,9 @@ void declare(CLI::App& app, ReplayRequest& o) {
     app.add_option_function<std::string>(
            "--verify",
            [&o](const std::string& rule) {
-               o.rule = rule == "bits" ? Rule::bits : rule == "film" ? Rule::film : Rule::automatic;
+               o.rule = rule == "bits"   ? VerifyRule::bits
+                        : rule == "film" ? VerifyRule::film
+                                         : VerifyRule::automatic;
            },
            "auto (the default: bits on the captured device and driver, else film), bits, or film: within "
            "tolerances")

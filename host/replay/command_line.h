@@ -14,7 +14,7 @@ struct ReplayRequest {
     unsigned threads = 0;
     unsigned repeat = 5;
     std::optional<std::size_t> launch;  ///< of `kernel`, from 1; none: the longest
-    Rule rule = Rule::automatic;
+    VerifyRule rule = VerifyRule::automatic;
     bool tune = false, check = false;
 };
 

@@ -36,7 +36,7 @@ bool read_mark(const std::string& text, Mark& mark) {
 
 /// A file that begins within another was included there; one that was included before is not named again, so
 /// that the line stays empty until another program fills it in.
-void add_program(const Workload::Source& source, std::map<std::string, FileLines>& files) {
+void add_program(const Recording::Source& source, std::map<std::string, FileLines>& files) {
     std::istringstream lines(source.text);
     std::set<std::string> begun;
     std::string current, text;
@@ -67,9 +67,9 @@ std::string essence(const std::string& text) {
 
 }  // namespace
 
-std::map<std::string, std::string> include_tree(const std::vector<Workload::Source>& sources) {
+std::map<std::string, std::string> include_tree(const std::vector<Recording::Source>& sources) {
     std::map<std::string, FileLines> files;
-    for (const Workload::Source& source : sources) add_program(source, files);
+    for (const Recording::Source& source : sources) add_program(source, files);
     std::map<std::string, std::string> texts;
     for (const auto& [path, lines] : files) {
         if (path.empty()) continue;
@@ -86,7 +86,7 @@ std::map<std::string, std::string> include_tree(const std::vector<Workload::Sour
     return texts;
 }
 
-void extract(const std::vector<Workload::Source>& sources, const fs::path& folder) {
+void extract(const std::vector<Recording::Source>& sources, const fs::path& folder) {
     for (const auto& [path, text] : include_tree(sources)) {
         std::error_code failed;
         fs::create_directories((folder / path).parent_path(), failed);
@@ -94,10 +94,10 @@ void extract(const std::vector<Workload::Source>& sources, const fs::path& folde
     }
 }
 
-std::vector<Workload::Source> from_folder(const std::vector<Workload::Source>& sources,
-                                          const fs::path& folder, std::vector<std::string>& changed) {
+std::vector<Recording::Source> from_folder(const std::vector<Recording::Source>& sources,
+                                           const fs::path& folder, std::vector<std::string>& changed) {
     kernel_source::set_folder(folder);
-    std::vector<Workload::Source> now = sources;
+    std::vector<Recording::Source> now = sources;
     for (std::size_t i = 0; i < now.size(); ++i) {
         now[i].text = kernel_source::load(now[i].path);
         if (essence(now[i].text) != essence(sources[i].text)) changed.push_back(now[i].path);

@@ -36,8 +36,8 @@ class Lines {
 
 std::map<std::string, std::uint64_t> items_of(const Replayer& replayer) {
     std::map<std::string, std::uint64_t> items;
-    for (const Workload::Command& command : replayer.capture().work.commands)
-        if (const auto* launch = std::get_if<Workload::Launch>(&command))
+    for (const Recording::Command& command : replayer.capture().work.commands)
+        if (const auto* launch = std::get_if<Recording::Launch>(&command))
             items[replayer.kernel_of(*launch)] += launch->items;
     return items;
 }
@@ -54,8 +54,8 @@ std::string words_of(const Capture& capture) {
 }
 
 /// As the capture has them.
-void set_shape_of(Device& device, const Workload& work) {
-    for (const Workload::Source& source : work.sources) {
+void set_shape_of(Device& device, const Recording& work) {
+    for (const Recording::Source& source : work.sources) {
         const auto format = source.options.find("TRIAD_BVH4");
         if (format != source.options.end())
             set_format(device, format->second == "1" ? BvhFormat::bvh4 : BvhFormat::bvh8);
@@ -92,7 +92,7 @@ std::size_t chosen_launch(Replayer& replayer, const ReplayRequest& o) {
     const std::vector<std::size_t> places = replayer.launches_of(o.kernel);
     if (places.empty()) {
         std::string names;
-        for (const Workload::Function& function : replayer.capture().work.functions)
+        for (const Recording::Function& function : replayer.capture().work.functions)
             names += (names.empty() ? "" : ", ") + function.name;
         throw Error(Exit::usage, "--single-kernel " + o.kernel + ": the capture has no such kernel; it has " +
                                      names + ".");
@@ -114,7 +114,7 @@ std::vector<KernelRow> measured_alone(Replayer& replayer, const ReplayRequest& o
     lines.say(
         format("Launch %zu of %zu of %s, alone\n", std::size_t(number), places.size(), o.kernel.c_str()));
     replayer.repeat(place, o.repeat);
-    const auto& launch = std::get<Workload::Launch>(replayer.capture().work.commands[place]);
+    const auto& launch = std::get<Recording::Launch>(replayer.capture().work.commands[place]);
     return kernel_rows({{o.kernel, launch.items}}, replayer.take_times(), o.repeat);
 }
 

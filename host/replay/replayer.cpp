@@ -18,13 +18,13 @@ std::size_t first_local(const Device& device, const CaptureOrigin& origin) {
 
 Replayer::Replayer(Device& device, const Capture& capture)
     : device_(device), capture_(capture), local_(first_local(device, capture.origin)) {
-    const Workload& work = capture.work;
+    const Recording& work = capture.work;
     std::vector<Program> programs;
-    for (const Workload::Source& source : work.sources)
+    for (const Recording::Source& source : work.sources)
         programs.push_back(device.build_flattened(source.path, source.text, source.options));
-    for (const Workload::Function& function : work.functions)
+    for (const Recording::Function& function : work.functions)
         kernels_.push_back(programs[function.source].kernel(function.name));
-    for (const Workload::Memory& memory : work.memories) {
+    for (const Recording::Memory& memory : work.memories) {
         if (memory.read_only && memory.content)
             buffers_.push_back(device.share(std::span<const std::byte>(*memory.content), memory.content));
         else
@@ -32,7 +32,7 @@ Replayer::Replayer(Device& device, const Capture& capture)
     }
     for (const auto& list : work.argument_lists) {
         Arguments& arguments = arguments_.emplace_back();
-        for (const Workload::Argument& argument : list) {
+        for (const Recording::Argument& argument : list) {
             if (const auto* place = std::get_if<std::size_t>(&argument))
                 arguments.add(buffers_[*place]);
             else if (const auto* bytes = std::get_if<std::string>(&argument))
@@ -45,19 +45,19 @@ Replayer::Replayer(Device& device, const Capture& capture)
 
 void Replayer::restore() {
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
-        const Workload::Memory& memory = capture_.work.memories[i];
+        const Recording::Memory& memory = capture_.work.memories[i];
         if (memory.content && !memory.read_only)
             device_.write(buffers_[i], memory.content->data(), memory.bytes);
     }
 }
 
-void Replayer::enqueue(const Workload::Command& command, const LocalSizes& sizes) {
-    if (const auto* write = std::get_if<Workload::Write>(&command)) {
+void Replayer::enqueue(const Recording::Command& command, const LocalSizes& sizes) {
+    if (const auto* write = std::get_if<Recording::Write>(&command)) {
         device_.write(buffers_[write->memory], write->content->data(), write->content->size(), write->offset);
-    } else if (const auto* fill = std::get_if<Workload::FillZero>(&command)) {
+    } else if (const auto* fill = std::get_if<Recording::FillZero>(&command)) {
         device_.fill_zero(buffers_[fill->memory]);
     } else {
-        const auto& launch = std::get<Workload::Launch>(command);
+        const auto& launch = std::get<Recording::Launch>(command);
         const auto size = sizes.find(kernel_of(launch));
         device_.set_preferred_local(size == sizes.end() ? local_ : size->second);
         device_.run(kernels_[launch.function], arguments_[launch.arguments], launch.items, launch.local);
@@ -68,7 +68,7 @@ double Replayer::run(const LocalSizes& sizes) {
     restore();
     device_.finish();
     const auto start = std::chrono::steady_clock::now();
-    for (const Workload::Command& command : capture_.work.commands) enqueue(command, sizes);
+    for (const Recording::Command& command : capture_.work.commands) enqueue(command, sizes);
     device_.finish();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -85,7 +85,7 @@ ReplayedFilm Replayer::film() {
 std::vector<std::size_t> Replayer::launches_of(const std::string& kernel) const {
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < capture_.work.commands.size(); ++i) {
-        const auto* launch = std::get_if<Workload::Launch>(&capture_.work.commands[i]);
+        const auto* launch = std::get_if<Recording::Launch>(&capture_.work.commands[i]);
         if (launch && kernel_of(*launch) == kernel) places.push_back(i);
     }
     return places;
@@ -97,8 +97,8 @@ void Replayer::repeat(std::size_t place, unsigned times) {
     for (std::size_t i = 0; i < place; ++i) enqueue(commands[i], {});
     // Which of its buffers a kernel writes it does not say, so that all come back that it may.
     std::map<std::size_t, AlignedVector<std::byte>> before;
-    const auto& launch = std::get<Workload::Launch>(commands[place]);
-    for (const Workload::Argument& argument : capture_.work.argument_lists[launch.arguments]) {
+    const auto& launch = std::get<Recording::Launch>(commands[place]);
+    for (const Recording::Argument& argument : capture_.work.argument_lists[launch.arguments]) {
         const auto* memory = std::get_if<std::size_t>(&argument);
         if (!memory || capture_.work.memories[*memory].read_only) continue;
         auto& content = before[*memory];

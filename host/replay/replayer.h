@@ -35,7 +35,7 @@ class Replayer {
     /// Of each kernel, the seconds of its launches since this was last asked, in their order.
     std::map<std::string, std::vector<double>> take_times();
 
-    const std::string& kernel_of(const Workload::Launch& launch) const {
+    const std::string& kernel_of(const Recording::Launch& launch) const {
         return capture_.work.functions[launch.function].name;
     }
     const Capture& capture() const { return capture_; }
@@ -51,7 +51,7 @@ class Replayer {
     std::map<std::string, std::size_t> taken_;  ///< launches whose times were taken
 
     void restore();
-    void enqueue(const Workload::Command& command, const LocalSizes& sizes);
+    void enqueue(const Recording::Command& command, const LocalSizes& sizes);
 };
 
 }  // namespace triad

@@ -16,8 +16,8 @@ constexpr double clearly_faster = 0.95;
 /// That launches leave open.
 std::vector<std::string> open_kernels(const Replayer& replayer) {
     std::vector<std::string> names;
-    for (const Workload::Command& command : replayer.capture().work.commands) {
-        const auto* launch = std::get_if<Workload::Launch>(&command);
+    for (const Recording::Command& command : replayer.capture().work.commands) {
+        const auto* launch = std::get_if<Recording::Launch>(&command);
         if (!launch || launch->local != 0) continue;
         const std::string& name = replayer.kernel_of(*launch);
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

@@ -188,10 +188,11 @@ bool is_captured_device(const CaptureOrigin& origin, const Device& device) {
            origin.platform_version == device.platform_version();
 }
 
-Verification judge(const Capture& capture, const Device& device, const ReplayedFilm& film, Rule rule) {
+Verification judge(const Capture& capture, const Device& device, const ReplayedFilm& film, VerifyRule rule) {
     Verification v;
     v.difference = difference(capture, film);
-    v.by_bits = rule == Rule::bits || (rule == Rule::automatic && is_captured_device(capture.origin, device));
+    v.by_bits = rule == VerifyRule::bits ||
+                (rule == VerifyRule::automatic && is_captured_device(capture.origin, device));
     const std::string why = v.difference.why_not();
     v.ok = v.difference.same_bits || (!v.by_bits && why.empty());
     const std::string numbers =

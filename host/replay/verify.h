@@ -37,7 +37,7 @@ FilmDifference difference(const Capture& capture, const ReplayedFilm& film);
 /// Whether equal bits are to be expected of the device.
 bool is_captured_device(const CaptureOrigin& origin, const Device& device);
 
-enum class Rule { automatic, bits, film };
+enum class VerifyRule { automatic, bits, film };
 
 struct Verification {
     FilmDifference difference;
@@ -45,7 +45,7 @@ struct Verification {
     bool ok = false;
     std::string sentence;
 };
-Verification judge(const Capture& capture, const Device& device, const ReplayedFilm& film, Rule rule);
+Verification judge(const Capture& capture, const Device& device, const ReplayedFilm& film, VerifyRule rule);
 Json to_json(const Verification& verification);
 
 }  // namespace triad

@@ -18,12 +18,12 @@ CaptureOrigin origin_of(const Device& device) {
 }
 
 /// Ends the recording, whatever ends the render.
-class Recording {
+class WhileRecording {
   public:
-    Recording(Device& device, Workload& to) : device_(device) { device.record(&to); }
-    ~Recording() { device_.record(nullptr); }
-    Recording(const Recording&) = delete;
-    Recording& operator=(const Recording&) = delete;
+    WhileRecording(Device& device, Recording& to) : device_(device) { device.record(&to); }
+    ~WhileRecording() { device_.record(nullptr); }
+    WhileRecording(const WhileRecording&) = delete;
+    WhileRecording& operator=(const WhileRecording&) = delete;
 
     /// What the buffer holds now, as a part of the film.
     CapturedArray array(CapturedArray::What what, const Buffer& buffer, std::uint64_t first_pixel,
@@ -57,7 +57,7 @@ Capture capture_pass(RenderRequest request) {
 
     Capture capture;
     capture.origin = origin_of(device);
-    const Recording recording(device, capture.work);
+    const WhileRecording recording(device, capture.work);
     render();
     const FilmPart& part = renderer.film_part();
     std::uint64_t pixels = 0;

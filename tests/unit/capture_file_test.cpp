@@ -22,7 +22,7 @@
 namespace triad {
 namespace {
 
-Workload::Content content(std::size_t bytes, unsigned first) {
+Recording::Content content(std::size_t bytes, unsigned first) {
     AlignedVector<std::byte> values(bytes);
     for (std::size_t i = 0; i < bytes; ++i) values[i] = std::byte(first + i * i);
     return std::make_shared<const AlignedVector<std::byte>>(std::move(values));
@@ -33,7 +33,7 @@ Capture small_capture() {
     Capture capture;
     capture.origin = {"0.1.0", "triad capture -o a", "A device", "1.2", "A platform", "OpenCL 1.2", "cpu", 8};
     capture.width = 3, capture.height = 2, capture.bins = 2;
-    Workload& work = capture.work;
+    Recording& work = capture.work;
     work.sources = {{"path/a.cl", "kernel void a(global int* x) { x[0] = 1; }\n", {{"TRIAD_X", "1"}}}};
     work.functions = {{0, "a"}};
     work.memories = {{6 * 2 * 4 * 8, false, nullptr},
@@ -41,9 +41,9 @@ Capture small_capture() {
                      {6 * 4, false, nullptr},
                      {2 * COUNTERS * 4, false, content(2 * COUNTERS * 4, 3)},
                      {100, true, content(100, 5)}};
-    work.argument_lists = {{std::size_t(0), Workload::NoMemory{}, std::string("\x01\xff\0\n", 4)}};
-    work.commands = {Workload::FillZero{0}, Workload::Write{4, 90, content(10, 9)},
-                     Workload::Launch{0, 0, 64, 0}};
+    work.argument_lists = {{std::size_t(0), Recording::NoMemory{}, std::string("\x01\xff\0\n", 4)}};
+    work.commands = {Recording::FillZero{0}, Recording::Write{4, 90, content(10, 9)},
+                     Recording::Launch{0, 0, 64, 0}};
     using What = CapturedArray::What;
     capture.film = {{What::sums, 0, 0, 6, content(6 * 2 * 4 * 8, 1)},
                     {What::half_sums, 1, 0, 6, content(6 * 3 * 8, 2)},
@@ -84,10 +84,10 @@ TEST(CaptureFile, comes_back_as_it_was) {
     EXPECT_EQ(back.work.sources[0].text, small_capture().work.sources[0].text);
     EXPECT_EQ(back.work.sources[0].options.at("TRIAD_X"), "1");
     EXPECT_EQ(std::get<std::string>(back.work.argument_lists[0][2]), std::string("\x01\xff\0\n", 4));
-    EXPECT_TRUE(std::holds_alternative<Workload::NoMemory>(back.work.argument_lists[0][1]));
+    EXPECT_TRUE(std::holds_alternative<Recording::NoMemory>(back.work.argument_lists[0][1]));
     EXPECT_EQ(*back.work.memories[4].content, *content(100, 5));
     EXPECT_EQ(back.work.memories[0].content, nullptr);
-    EXPECT_EQ(std::get<Workload::Write>(back.work.commands[1]).offset, 90u);
+    EXPECT_EQ(std::get<Recording::Write>(back.work.commands[1]).offset, 90u);
     EXPECT_EQ(*back.film[2].content, *content(6 * 4, 4));
 }
 
@@ -177,14 +177,16 @@ TEST(CaptureFile, places_and_ranges_outside_are_refused) {
         EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
     };
     expect("kernel that it does not have", [](Capture& c) {
-        c.work.commands[2] = Workload::Launch{1, 0, 64, 0};
+        c.work.commands[2] = Recording::Launch{1, 0, 64, 0};
     });
-    expect("list of arguments", [](Capture& c) { c.work.commands[2] = Workload::Launch{0, 1, 64, 0}; });
-    expect("work-items", [](Capture& c) { c.work.commands[2] = Workload::Launch{0, 0, 0, 0}; });
-    expect("buffer that it does not have", [](Capture& c) { c.work.commands[0] = Workload::FillZero{5}; });
-    expect("beyond the end", [](Capture& c) { c.work.commands[1] = Workload::Write{4, 91, content(10, 9)}; });
+    expect("list of arguments", [](Capture& c) { c.work.commands[2] = Recording::Launch{0, 1, 64, 0}; });
+    expect("work-items", [](Capture& c) { c.work.commands[2] = Recording::Launch{0, 0, 0, 0}; });
+    expect("buffer that it does not have", [](Capture& c) { c.work.commands[0] = Recording::FillZero{5}; });
     expect("beyond the end", [](Capture& c) {
-        c.work.commands[1] = Workload::Write{4, ~std::uint64_t(0), content(10, 9)};
+        c.work.commands[1] = Recording::Write{4, 91, content(10, 9)};
+    });
+    expect("beyond the end", [](Capture& c) {
+        c.work.commands[1] = Recording::Write{4, ~std::uint64_t(0), content(10, 9)};
     });
     expect("buffer that it does not have", [](Capture& c) { c.work.argument_lists[0][0] = std::size_t(99); });
     expect("program that it does not have", [](Capture& c) { c.work.functions[0].source = 1; });

@@ -122,7 +122,7 @@ TEST(KernelRows, have_medians_shares_and_rates) {
 }
 
 TEST(IncludeTree, is_what_programs_were_flattened_from) {
-    std::vector<Workload::Source> sources;
+    std::vector<Recording::Source> sources;
     for (const char* path : {"path/mega.cl", "photon/map.cl"})
         sources.push_back({path, kernel_source::load(path), {}});
     const std::map<std::string, std::string> tree = include_tree(sources);

@@ -12,7 +12,7 @@
 
 namespace triad {
 
-struct Workload {
+struct Recording {
     /// Shared by all that have the same bytes; never changed.
     using Content = std::shared_ptr<const AlignedVector<std::byte>>;
 
