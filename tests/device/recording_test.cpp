@@ -25,11 +25,11 @@ Numbers numbers_of(const AlignedVector<std::byte>& bytes) {
 }
 
 /// x = 2 x + y + plus, for eight numbers; two launches with a write and a fill between.
-struct Recorded {
+struct RecordedNumbers {
     Capture capture;
     Numbers first, last;  ///< x after the first launch, and at the end
 
-    Recorded() {
+    RecordedNumbers() {
         Device& device = test_device();
         const Kernel kernel =
             device
@@ -68,7 +68,7 @@ struct Recorded {
 };
 
 TEST(Recording, notes_each_thing_once_with_what_it_held) {
-    const Recorded recorded;
+    const RecordedNumbers recorded;
     const Recording& work = recorded.capture.work;
     EXPECT_EQ(work.sources.size(), 1u);
     EXPECT_EQ(work.functions.size(), 1u);
@@ -83,7 +83,7 @@ TEST(Recording, notes_each_thing_once_with_what_it_held) {
 }
 
 TEST(Recording, a_replay_does_it_again_as_often_as_one_likes) {
-    const Recorded recorded;
+    const RecordedNumbers recorded;
     Replayer replayer(test_device(), recorded.capture);
     for (int i = 0; i < 3; ++i) {
         replayer.run();
@@ -92,7 +92,7 @@ TEST(Recording, a_replay_does_it_again_as_often_as_one_likes) {
 }
 
 TEST(Recording, a_launch_alone_begins_each_time_with_what_came_before_it) {
-    const Recorded recorded;
+    const RecordedNumbers recorded;
     Replayer replayer(test_device(), recorded.capture);
     const std::vector<std::size_t> launches = replayer.launches_of("double_add");
     ASSERT_EQ(launches.size(), 3u);
