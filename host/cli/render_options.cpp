@@ -134,6 +134,21 @@ void declare_camera(CLI::App& command, RenderRequest& o) {
         ->check(CLI::NonNegativeNumber)
         ->type_name("N")
         ->group(view_group);
+    command
+        .add_option("--variant", o.variant,
+                    "Of the file's materials (KHR_materials_variants; triad info lists them; default: "
+                    "every primitive's own material)")
+        ->type_name("NAME")
+        ->group(view_group);
+    command
+        .add_option("--animation", o.animation,
+                    "Of the file, or none for nodes as they are (default: the first)")
+        ->type_name("NAME|INDEX")
+        ->group(view_group);
+    command.add_option("--pose-time", o.pose_time, "Where in the animation, in seconds (default 0)")
+        ->check(number_within(-1e9, 1e9))
+        ->type_name("T")
+        ->group(view_group);
     CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
                               ->type_name("NAME|INDEX")
                               ->group(view_group);

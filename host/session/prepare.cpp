@@ -58,10 +58,14 @@ void apply_glass(Scene& scene, const std::string& text) {
 Scene load_scene(const RenderRequest& o) {
     Scene scene;
     if (o.scene_path.empty()) {
+        if (!o.variant.empty() || !o.animation.empty() || o.pose_time != 0)
+            throw Error(Exit::usage,
+                        "The built-in scene has no variants and no animations: --variant, --animation and "
+                        "--pose-time go with a file.");
         scene = builtin_scene();
     } else {
         GltfReport report;
-        scene = load_gltf(o.scene_path, {o.scene_index}, &report);
+        scene = load_gltf(o.scene_path, {o.scene_index, o.variant, o.animation, o.pose_time}, &report);
         for (const std::string& warning : report.warnings) warn(warning);
     }
     for (const std::string& text : o.glass) apply_glass(scene, text);

@@ -57,6 +57,9 @@ struct RenderRequest {
     std::optional<double> fov;  ///< vertical, degrees
     std::optional<double> aperture, focus;
 
+    std::string variant;             ///< of the file's materials; empty: none
+    std::string animation;           ///< name, index, "none"; empty: the first
+    double pose_time = 0;            ///< seconds of it
     std::vector<std::string> glass;  ///< MATERIAL=NAME
     std::string env_path;
     double env_rotate = 0;  ///< degrees
