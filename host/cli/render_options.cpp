@@ -130,25 +130,6 @@ void declare_picture(CLI::App& command, RenderRequest& o) {
 }
 
 void declare_camera(CLI::App& command, RenderRequest& o) {
-    command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
-        ->check(CLI::NonNegativeNumber)
-        ->type_name("N")
-        ->group(view_group);
-    command
-        .add_option("--variant", o.variant,
-                    "Of the file's materials (KHR_materials_variants; triad info lists them; default: "
-                    "every primitive's own material)")
-        ->type_name("NAME")
-        ->group(view_group);
-    command
-        .add_option("--animation", o.animation,
-                    "Of the file, or none for nodes as they are (default: the first)")
-        ->type_name("NAME|INDEX")
-        ->group(view_group);
-    command.add_option("--pose-time", o.pose_time, "Where in the animation, in seconds (default 0)")
-        ->check(number_within(-1e9, 1e9))
-        ->type_name("T")
-        ->group(view_group);
     CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
                               ->type_name("NAME|INDEX")
                               ->group(view_group);
@@ -301,6 +282,7 @@ void declare(CLI::App& command, RenderRequest& o) {
     declare_paths(command, o);
     declare_photons(command, o);
     declare_sampler(command, o);
+    declare_scene(command, o);
     declare_picture(command, o);
     declare_camera(command, o);
     declare_light(command, o);

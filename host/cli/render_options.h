@@ -9,4 +9,7 @@ namespace triad {
 /// Declares the options on a subcommand. `request` must outlive the parsing; complete() it afterwards.
 void declare(CLI::App& command, RenderRequest& request);
 
+/// The options of the scene's file; a part of declare().
+void declare_scene(CLI::App& command, RenderRequest& request);
+
 }  // namespace triad

@@ -1,11 +1,11 @@
 #include "io/gltf_file.h"
 
 #include <algorithm>
-#include <set>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "io/gltf_compression.h"
+#include "io/gltf_extensions.h"
 #include "io/gltf_uri.h"
 
 namespace fs = std::filesystem;
@@ -21,15 +21,6 @@ constexpr std::uint64_t free_budget = std::uint64_t(192) << 20;
 constexpr std::uint64_t budget_per_byte =
     64;  // an 8-bit index of a strip becomes three 32-bit ones; buffers may be shared
 
-const std::set<std::string> supported{
-    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_draco_mesh_compression",
-    "KHR_meshopt_compression", "KHR_lights_punctual", "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
-    "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform",
-    // These say nothing about the picture.
-    "KHR_interactivity", "KHR_node_hoverability", "KHR_node_selectability", "KHR_xmp", "KHR_xmp_json_ld"};
-
 /// The policy: required and unknown is refused, used and unknown is left out with a warning.
 void check_extensions(const json& document, File& file) {
     const auto list = [&](const char* member) {
@@ -39,11 +30,11 @@ void check_extensions(const json& document, File& file) {
     file.report.extensions_used = list("extensionsUsed");
     file.report.extensions_required = list("extensionsRequired");
     for (const std::string& name : file.report.extensions_required)
-        if (!supported.contains(name))
+        if (treatment_of(name) == Treatment::left_out)
             throw Error(Exit::unsupported, "The scene requires the glTF extension " + name +
                                                ", which is not supported; export it without that extension.");
     for (const std::string& name : file.report.extensions_used) {
-        if (!supported.contains(name))
+        if (treatment_of(name) == Treatment::left_out)
             file.warn("The glTF extension " + name + " is not supported and is left out.");
         if (name == "KHR_mesh_quantization") file.quantised = true;
     }
@@ -269,6 +260,19 @@ Bytes bytes_of(const File& file, std::size_t buffer, std::uint64_t offset, std::
                                      std::to_string(offset + length) + " of " + label("buffer", buffer, "") +
                                      ", which has " + std::to_string(bytes->size()) + ".");
     return bytes->subspan(offset, length);
+}
+
+json read_document(const fs::path& path) {
+    const std::vector<std::uint8_t> bytes = triad::read_file(path, file_cap);
+    json document = parse_json(split_container(bytes).json);
+    check_header(document);
+    check_document(document);
+    return document;
+}
+
+Error named(const Error& error, const fs::path& path) {
+    const std::string name = path.string(), sentence = error.what();
+    return sentence.find(name) != std::string::npos ? error : Error(error.exit(), name + ": " + sentence);
 }
 
 File read_file(const fs::path& path) {

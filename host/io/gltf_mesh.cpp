@@ -32,6 +32,20 @@ std::vector<uvec3> triangles_of(const std::vector<std::uint32_t>& indices, int m
     return triangles;
 }
 
+/// Ends of the lines that indices mean; points are lines without length.
+std::vector<uvec2> strokes_of(const std::vector<std::uint32_t>& indices, int mode) {
+    std::vector<uvec2> strokes;
+    const std::size_t n = indices.size();
+    if (mode == TINYGLTF_MODE_POINTS) {
+        for (const std::uint32_t i : indices) strokes.emplace_back(i, i);
+    } else {
+        for (std::size_t i = 0; i + 1 < n; i += mode == TINYGLTF_MODE_LINE ? 2 : 1)
+            strokes.emplace_back(indices[i], indices[i + 1]);
+        if (mode == TINYGLTF_MODE_LINE_LOOP && n > 1) strokes.emplace_back(indices[n - 1], indices[0]);
+    }
+    return strokes;
+}
+
 /// Unit normals; a normal without length or with a NaN becomes that of the triangles around its vertex.
 void normalise(std::vector<vec3>& normals, const Primitive& primitive) {
     const auto is_good = [](const vec3& n) { return glm::dot(n, n) > 1e-12f && is_finite(glm::dot(n, n)); };
@@ -98,11 +112,6 @@ std::size_t Meshes::use(int index, int skin, const Deformation& deformation) {
 std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, const Deformation& deformation,
                                          const std::string& what) {
     const int mode = source.mode < 0 ? TINYGLTF_MODE_TRIANGLES : source.mode;
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
-        file_.warn(what + (mode == TINYGLTF_MODE_POINTS ? " is made of points" : " is made of lines") +
-                   ", which have no surface; it is left out.");
-        return std::nullopt;
-    }
     const auto attribute = [&](const char* name) {
         const auto found = source.attributes.find(name);
         return found == source.attributes.end() ? -1 : found->second;
@@ -138,12 +147,18 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
         std::iota(indices.begin(), indices.end(), 0u);
     }
     file_.charge(indices.size() * (mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * sizeof(std::uint32_t), what);
+    const bool is_surface = mode >= TINYGLTF_MODE_TRIANGLES;
     if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
         file_.warn(what + " has " + std::to_string(indices.size()) +
                    " corners, no multiple of 3; the last are left out.");
-    p.triangles = triangles_of(indices, mode);
+    if (is_surface)
+        p.triangles = triangles_of(indices, mode);
+    else
+        p.strokes = strokes_of(indices, mode);
 
-    p.material = materials_.use(material_of(source, variant_));
+    const int material = material_of(source, variant_);
+    p.material = is_surface ? materials_.use(material)
+                            : materials_.use_for_strokes(material, attribute("NORMAL") >= 0);
     const std::optional<TextureUse> normal_map = scene_.materials[p.material].normal_texture;
     if (const int normals = attribute("NORMAL"); normals >= 0)
         p.normals = read_vec3(file_, normals, Integers::quantised, what + ": NORMAL");

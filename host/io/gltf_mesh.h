@@ -19,7 +19,7 @@ class Meshes {
         : file_(file), scene_(scene), materials_(materials), variant_(variant) {}
 
     /// The scene's index of this glTF mesh, so deformed: nodes of one pose share it. `skin`: the glTF's index
-    /// of the one in `deformation`; -1: none. Points and lines are left out with a warning.
+    /// of the one in `deformation`; -1: none. Points and lines become strokes.
     std::size_t use(int mesh, int skin, const Deformation& deformation);
 
   private:

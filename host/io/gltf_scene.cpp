@@ -203,9 +203,7 @@ Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice, Glt
         if (report) *report = std::move(file.report);
         return scene;
     } catch (const Error& e) {
-        const std::string name = path.string();
-        if (std::string(e.what()).find(name) != std::string::npos) throw;
-        throw Error(e.exit(), name + ": " + e.what());
+        throw gltf::named(e, path);
     } catch (const std::bad_alloc&) {
         throw Error(Exit::memory, path.string() + ": there is not enough memory for this scene.");
     } catch (const std::length_error&) {

@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
+#include "scene/strokes.h"
 #include "session/choose_view.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
@@ -72,6 +73,11 @@ Scene load_scene(const RenderRequest& o) {
     if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
     if (const std::size_t dropped = validate(scene))
         detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
+    if (has_strokes(scene)) {
+        const RenderSettings settings = settings_of(o, scene);
+        draw_strokes(scene, settings.view, settings.height, o.point_size);
+        validate(scene);
+    }
     if (!has_light(scene)) {
         scene.sky = vec3(1.0f);
         inform("The scene has no light: it gets a plain white sky (--env FILE lights it with a panorama).");

@@ -49,8 +49,8 @@ const std::map<std::string, Names> below = [] {
 
 /// Packages with one owner: how their headers begin.
 const std::map<std::string, std::string> owners = {
-    {"CL/", "device"},  {"tiny_gltf", "io"}, {"OpenImageIO/", "io"}, {"CLI/", "cli"},
-    {"xxhash", "base"}, {"glm/", "base"},    {"fftw3", "panel"}};
+    {"CL/", "device"}, {"tiny_gltf", "io"}, {"draco/", "io"}, {"meshoptimizer", "io"}, {"OpenImageIO/", "io"},
+    {"CLI/", "cli"},   {"xxhash", "base"},  {"glm/", "base"}, {"fftw3", "panel"}};
 
 /// Which folders of kernels/ the headers of a folder may include from, beside itself and common. Programs
 /// (.cl) compose them all.
