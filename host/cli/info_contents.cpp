@@ -29,7 +29,7 @@ std::vector<Use> uses_of(const GltfContents& c) {
             std::count(c.extensions_required.begin(), c.extensions_required.end(), name) > 0;
         Use use{name, words_for(treatment_of(name), required), "", required};
         for (const GltfExtension& known : gltf_extensions())
-            if (name == known.name) use.how = known.how;
+            if (name == known.name && use.what != "refused") use.how = known.how;
         uses.push_back(std::move(use));
     }
     return uses;
