@@ -6,7 +6,9 @@
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "cli/info_contents.h"
 #include "cli/info_film.h"
+#include "io/gltf_contents.h"
 #include "io/io.h"
 #include "report/report.h"
 #include "scene/scene.h"
@@ -17,6 +19,7 @@ namespace {
 /// What rendering will hold on the device, within some percent: the structs of kernels/types.h and what
 /// measurement gave for the trees (bytes per triangle).
 constexpr double tree_bytes_per_triangle = 90;
+constexpr std::size_t bytes_per_instance = 256;
 
 struct Sizes {
     std::size_t primitives = 0, unique_triangles = 0, triangles = 0, emissive_triangles = 0;
@@ -45,19 +48,14 @@ Sizes sizes_of(const Scene& scene) {
                 s.emissive_triangles += p.triangles.size();
     }
     for (const Image& image : scene.images) s.texture_bytes += image.texels.size();
-    s.device_bytes = s.attribute_bytes + s.texture_bytes +
+    s.device_bytes = s.attribute_bytes + s.texture_bytes + bytes_per_instance * scene.instances.size() +
                      static_cast<std::uint64_t>(tree_bytes_per_triangle * double(s.unique_triangles));
     return s;
 }
 
-void print_list(const char* title, const std::vector<std::string>& names) {
-    if (names.empty()) return;
-    std::printf("%s", title);
-    for (std::size_t i = 0; i < names.size(); ++i) std::printf("%s%s", i ? ", " : "", names[i].c_str());
-    std::printf("\n");
-}
-
 Exit run(const std::string& path, int scene_index, const std::string& json) {
+    const GltfContents contents = gltf_contents(path);
+    if (json != "-") print(contents);
     GltfReport report;
     Scene scene = load_gltf(path, {scene_index}, &report);
     const std::size_t dropped = validate(scene);
@@ -67,7 +65,7 @@ Exit run(const std::string& path, int scene_index, const std::string& json) {
     const Sizes s = sizes_of(scene);
     const Bounds bounds = bounds_of(scene);
     if (json != "-") {
-        std::printf("meshes      %zu with %zu primitives, placed %zu times\n", scene.meshes.size(),
+        std::printf("rendered\nmeshes      %zu with %zu primitives, placed %zu times\n", scene.meshes.size(),
                     s.primitives, scene.instances.size());
         std::printf("triangles   %zu in meshes, %zu as placed, %zu of them emit\n", s.unique_triangles,
                     s.triangles, s.emissive_triangles);
@@ -85,9 +83,6 @@ Exit run(const std::string& path, int scene_index, const std::string& json) {
         if (!bounds.empty())
             std::printf("bounds      (%g, %g, %g) to (%g, %g, %g)\n", bounds.lo.x, bounds.lo.y, bounds.lo.z,
                         bounds.hi.x, bounds.hi.y, bounds.hi.z);
-        std::printf("scenes      %zu, %zu nodes\n", report.scenes, report.nodes);
-        print_list("extensions  ", report.extensions_used);
-        print_list("required    ", report.extensions_required);
         std::printf("memory      about %s on the device, beside the film\n",
                     bytes_text(s.device_bytes).c_str());
         std::printf("faults      %zu\n", report.warnings.size());
@@ -117,6 +112,7 @@ Exit run(const std::string& path, int scene_index, const std::string& json) {
                 {"bounds", bounds.empty() ? Json()
                                           : Json{bounds.lo.x, bounds.lo.y, bounds.lo.z, bounds.hi.x,
                                                  bounds.hi.y, bounds.hi.z}},
+                {"contents", to_json(contents)},
                 {"extensions_used", report.extensions_used},
                 {"extensions_required", report.extensions_required},
                 {"device_bytes", s.device_bytes},

@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "base/text.h"
 #include "cli/command_line.h"
+#include "cli/frames.h"
 #include "cli/render_options.h"
 #include "cli/resume.h"
 #include "io/io.h"
@@ -70,8 +71,8 @@ ProgressState shown(const Progress& p, const RenderGoal& goal) {
             .perceived_noise = p.perceived_noise};
 }
 
-/// `command`: for what is said when the render stops before its goal.
-Exit run(const RenderRequest& request, const CLI::App& command) {
+/// `to_go_on`: the command for it, said when the render stops before its goal; empty: there is none.
+Exit run(const RenderRequest& request, const std::string& to_go_on) {
     RenderSession session(request);
     describe(session);
     if (session.request().pixel) {
@@ -93,10 +94,8 @@ Exit run(const RenderRequest& request, const CLI::App& command) {
                 return !guard.interrupted();
             });
         } catch (const Error& error) {
-            const std::string& kept = session.request().film_path;
-            if (!is_film(kept)) throw;
-            throw Error(error.exit(),
-                        std::string(error.what()) + "\nTo go on: " + command_that_goes_on(command, kept));
+            if (!is_film(session.request().film_path)) throw;
+            throw Error(error.exit(), std::string(error.what()) + "\nTo go on: " + to_go_on);
         }
     }
     const Film& film = outcome.film;
@@ -117,23 +116,42 @@ Exit run(const RenderRequest& request, const CLI::App& command) {
     inform(format("Stopped early: every pixel has samples %llu to %llu.",
                   static_cast<unsigned long long>(outcome.result.range.begin),
                   static_cast<unsigned long long>(outcome.result.range.end)));
-    inform(request.film_path.empty()
-               ? "No film was kept, so that the render cannot go on; with --film FILE it could."
-               : "To go on: " + command_that_goes_on(command, session.request().film_path));
+    inform(to_go_on.empty() ? "No film was kept, so that the render cannot go on; with --film FILE it could."
+                            : "To go on: " + to_go_on);
     return Exit::interrupted;
 }
 
-Exit begin_or_go_on(const CLI::App& command, RenderRequest request) {
-    if (request.resume_path.empty()) {
-        request.words = words_of_picture(command);
-        return run(request, command);
-    }
+Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, const std::string& to_go_on) {
+    if (request.resume_path.empty()) return run(request, to_go_on);
     std::string nothing_to_do;
-    const RenderRequest whole = resumed(command, request, nothing_to_do);
-    if (nothing_to_do.empty()) return run(whole, command);
+    RenderRequest whole = resumed(command, request, nothing_to_do);
+    whole.outputs = request.outputs, whole.film_path = request.film_path;  // numbered where it is a frame
+    whole.json_path = request.json_path, whole.resume_path = request.resume_path;
+    whole.frames.reset();
+    if (nothing_to_do.empty()) return run(whole, to_go_on);
     FileLock::clear(request.resume_path);  // of a process that was killed when it was done
     inform(nothing_to_do);
     return Exit::done;
+}
+
+Exit render_frames(const CLI::App& command, const RenderRequest& all) {
+    RenderRequest checked = all;
+    complete(checked);
+    for (std::uint64_t frame = all.frames->begin; frame < all.frames->end; ++frame) {
+        const RenderRequest one = frame_of(all, frame);
+        inform(format("Frame %llu, at %.6g s", static_cast<unsigned long long>(frame), one.pose_time));
+        if (const Exit exit = begin_or_go_on(command, one, command_that_goes_on(command, all, frame));
+            exit != Exit::done)
+            return exit;
+    }
+    return Exit::done;
+}
+
+Exit render(const CLI::App& command, RenderRequest request) {
+    request.words = words_of_picture(command);
+    if (request.frames) return render_frames(command, request);
+    const std::string& film = request.film_path.empty() ? request.resume_path : request.film_path;
+    return begin_or_go_on(command, request, film.empty() ? "" : command_that_goes_on(command, film));
 }
 
 }  // namespace
@@ -142,7 +160,7 @@ void add_render(CLI::App& app, Exit& exit) {
     auto o = std::make_shared<RenderRequest>();
     CLI::App* command = app.add_subcommand("render", "Render a scene; without one the built-in scene");
     declare(*command, *o);
-    command->callback([o, command, &exit] { exit = begin_or_go_on(*command, *o); });
+    command->callback([o, command, &exit] { exit = render(*command, *o); });
 }
 
 }  // namespace triad

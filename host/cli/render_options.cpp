@@ -130,10 +130,6 @@ void declare_picture(CLI::App& command, RenderRequest& o) {
 }
 
 void declare_camera(CLI::App& command, RenderRequest& o) {
-    command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
-        ->check(CLI::NonNegativeNumber)
-        ->type_name("N")
-        ->group(view_group);
     CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
                               ->type_name("NAME|INDEX")
                               ->group(view_group);
@@ -285,6 +281,7 @@ void declare_workload(CLI::App& command, RenderRequest& o) {
     declare_paths(command, o);
     declare_photons(command, o);
     declare_sampler(command, o);
+    declare_scene(command, o);
     declare_picture(command, o);
     declare_camera(command, o);
     declare_light(command, o);

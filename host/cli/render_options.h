@@ -12,4 +12,7 @@ void declare_workload(CLI::App& command, RenderRequest& request);
 /// Declares the options on a subcommand. `request` must outlive the parsing; complete() it afterwards.
 void declare(CLI::App& command, RenderRequest& request);
 
+/// The options of the scene's file; a part of declare().
+void declare_scene(CLI::App& command, RenderRequest& request);
+
 }  // namespace triad

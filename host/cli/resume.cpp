@@ -14,9 +14,9 @@ namespace {
 
 /// What the next run may do otherwise.
 const std::vector<std::string> of_this_run{
-    "--help",     "--output", "--film",    "--resume",  "--checkpoint", "--json",
-    "--progress", "--device", "--threads", "--format",  "--driver",     "--force",
-    "--kernels",  "--aov",    "--quiet",   "--verbose", "--max-memory"};
+    "--help",   "--output",  "--film",   "--resume",  "--checkpoint", "--json",    "--progress",
+    "--device", "--threads", "--format", "--driver",  "--force",      "--kernels", "--frames",
+    "--fps",    "--aov",     "--quiet",  "--verbose", "--max-memory"};
 /// Of every command: not among those that declare() makes.
 const std::vector<std::string> common{"--help", "--quiet", "--verbose", "--max-memory"};
 /// What ends a render: a film may go on to another.
@@ -97,9 +97,9 @@ std::vector<std::string> words_of_picture(const CLI::App& command) {
 RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::string& nothing_to_do) {
     const std::string& path = given.resume_path;
     const Film film = load_film_header(path);
-    const Words said = words_of_picture(command), run = words_of(command, [](const std::string&name) {
-                                                      return is_in(of_this_run, name) && !is_in(common, name);
-                                                  });
+    const Words &said = given.words, run = words_of(command, [](const std::string&name) {
+                                         return is_in(of_this_run, name) && !is_in(common, name);
+                                     });
     const bool has_goal = std::any_of(said.begin(), said.end(),
                                       [](const std::string& word) { return is_in(goals, name_in(word)); });
     if (!has_goal && (!film.progress || film.progress->ended)) {
@@ -125,6 +125,17 @@ RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::
     }
     request.words = words_of_picture(parser);
     return request;
+}
+
+std::string command_of(const CLI::App& command, const std::vector<std::string>& without,
+                       const std::vector<std::string>& with) {
+    std::string text = "triad render";
+    for (const std::string& word :
+         words_of(command, [&](const std::string& name) { return !is_in(without, name); }))
+        text += " " + quoted(word);
+    for (const std::string& word : with)
+        if (!word.empty()) text += " " + quoted(word);
+    return text;
 }
 
 std::string command_that_goes_on(const CLI::App& command, const std::string& film) {

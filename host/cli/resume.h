@@ -13,9 +13,14 @@ namespace triad {
 /// was given, but for those that say where it runs and what it writes.
 std::vector<std::string> words_of_picture(const CLI::App& command);
 
-/// What `given` asks for together with the words that the film at its resume_path keeps. Words may be
-/// repeated; other goals replace its goals. `nothing_to_do`: a sentence where the film is complete and no
-/// goal was given. Throws Error(usage) that names the option where they contradict, Error(scene).
+/// The command with the options that it was given, but for those named in `without`, and with `with`; quoted
+/// for a shell.
+std::string command_of(const CLI::App& command, const std::vector<std::string>& without,
+                       const std::vector<std::string>& with);
+
+/// What `given` and its words ask for together with the words that the film at its resume_path keeps. Words
+/// may be repeated; other goals replace its goals. `nothing_to_do`: a sentence where the film is complete and
+/// no goal was given. Throws Error(usage) that names the option where they contradict, Error(scene).
 RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::string& nothing_to_do);
 
 /// The command line that goes on with the film of this one, quoted for a shell.

@@ -128,6 +128,16 @@ std::string name_of(const File& file, int index, const std::string& what) {
            label("accessor", std::size_t(index), file.model.accessors[std::size_t(index)].name) + ")";
 }
 
+/// What a glTF file calls elements of so many components.
+std::string type_name(int components) {
+    return components == 1 ? "SCALAR" : components == 16 ? "MAT4" : "VEC" + std::to_string(components);
+}
+
+/// tinygltf's number for it.
+int type_number(int components) {
+    return components == 1 ? TINYGLTF_TYPE_SCALAR : components == 16 ? TINYGLTF_TYPE_MAT4 : components;
+}
+
 template <class Vector>
 std::vector<Vector> as_vectors(const std::vector<float>& floats) {
     std::vector<Vector> result(floats.size() / std::size_t(Vector::length()));
@@ -141,21 +151,25 @@ std::vector<float> read_floats(File& file, int index, int components, Integers i
                                const std::string& what_) {
     const tinygltf::Accessor& accessor = file.model.accessors[std::size_t(index)];
     const std::string what = name_of(file, index, what_);
-    if (accessor.type != components)  // tinygltf's number for VECn is n
-        throw Error(Exit::scene, what + " must be of type VEC" + std::to_string(components) + ".");
+    if (accessor.type != type_number(components))
+        throw Error(Exit::scene, what + " must be of type " + type_name(components) + ".");
     const int component = accessor.componentType;
     const bool narrow = size_of(component) == 1 || size_of(component) == 2;
     const bool is_signed = component == int8 || component == int16;
     const bool allowed =
-        component == float32 ||
+        (component == float32 && integers != Integers::counts) ||
         (narrow && ((integers == Integers::normalised && accessor.normalized && !is_signed) ||
                     (integers == Integers::signed_normalised && accessor.normalized && is_signed) ||
+                    (integers == Integers::any_normalised && accessor.normalized) ||
+                    (integers == Integers::counts && !accessor.normalized && !is_signed) ||
                     (integers == Integers::quantised && file.quantised)));
     if (!allowed)
         throw Error(Exit::scene, what + " has component type " + std::to_string(component) +
                                      (accessor.normalized ? " (normalised)" : "") +
                                      ", which is not allowed there" +
-                                     (narrow && !file.quantised ? " without KHR_mesh_quantization." : "."));
+                                     (narrow && !file.quantised && integers == Integers::quantised
+                                          ? " without KHR_mesh_quantization."
+                                          : "."));
     const std::size_t size = size_of(component), n = std::size_t(components);
     if (accessor.count > (std::uint64_t(1) << 40))
         throw Error(Exit::scene, what + " has an absurd count of elements.");

@@ -14,11 +14,13 @@ enum class Integers {
     none,               ///< float only
     normalised,         ///< unsigned 8 and 16 bits, normalised
     signed_normalised,  ///< signed 8 and 16 bits, normalised
+    any_normalised,     ///< 8 and 16 bits of either kind, normalised
+    counts,             ///< unsigned 8 and 16 bits as they are, and no floats
     quantised,  ///< 8 and 16 bits of any kind when the file declares KHR_mesh_quantization, else float only
 };
 
-/// Elements with `components` floats each, sparse values applied. Throws Error(scene) that starts with
-/// `what`.
+/// Elements with `components` (1, 2, 3, 4 or 16: scalars, vectors, matrices) floats each, sparse values
+/// applied. Throws Error(scene) that starts with `what`.
 std::vector<float> read_floats(File& file, int accessor, int components, Integers integers,
                                const std::string& what);
 

@@ -1,10 +1,11 @@
 #include "io/gltf_file.h"
 
 #include <algorithm>
-#include <set>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "io/gltf_compression.h"
+#include "io/gltf_extensions.h"
 #include "io/gltf_uri.h"
 
 namespace fs = std::filesystem;
@@ -20,14 +21,6 @@ constexpr std::uint64_t free_budget = std::uint64_t(192) << 20;
 constexpr std::uint64_t budget_per_byte =
     64;  // an 8-bit index of a strip becomes three 32-bit ones; buffers may be shared
 
-const std::set<std::string> supported{
-    "EXT_mesh_gpu_instancing", "EXT_texture_webp", "KHR_lights_punctual", "KHR_materials_dispersion",
-    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit", "KHR_materials_variants", "KHR_materials_volume",
-    "KHR_mesh_quantization", "KHR_node_visibility", "KHR_texture_transform",
-    // These say nothing about the picture.
-    "KHR_interactivity", "KHR_node_hoverability", "KHR_node_selectability", "KHR_xmp", "KHR_xmp_json_ld"};
-
 /// The policy: required and unknown is refused, used and unknown is left out with a warning.
 void check_extensions(const json& document, File& file) {
     const auto list = [&](const char* member) {
@@ -37,11 +30,11 @@ void check_extensions(const json& document, File& file) {
     file.report.extensions_used = list("extensionsUsed");
     file.report.extensions_required = list("extensionsRequired");
     for (const std::string& name : file.report.extensions_required)
-        if (!supported.contains(name))
+        if (treatment_of(name) == Treatment::left_out)
             throw Error(Exit::unsupported, "The scene requires the glTF extension " + name +
                                                ", which is not supported; export it without that extension.");
     for (const std::string& name : file.report.extensions_used) {
-        if (!supported.contains(name))
+        if (treatment_of(name) == Treatment::left_out)
             file.warn("The glTF extension " + name + " is not supported and is left out.");
         if (name == "KHR_mesh_quantization") file.quantised = true;
     }
@@ -57,6 +50,15 @@ std::string text_of(const json& object, const char* member) {
     return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
+/// Of what is compressed elsewhere in the file.
+bool is_fallback(const json& buffer) {
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (const json::json_pointer at(std::string("/extensions/") + name + "/fallback");
+            buffer.contains(at) && buffer[at] == true)
+            return true;
+    return false;
+}
+
 void read_buffers(const json& document, const fs::path& folder, const Container& container, File& file) {
     const auto buffers = document.find("buffers");
     if (buffers == document.end()) return;
@@ -68,10 +70,14 @@ void read_buffers(const json& document, const fs::path& folder, const Container&
         std::optional<Bytes> bytes;
         if (buffer.contains("uri")) {
             const std::string& uri = buffer["uri"].get_ref<const std::string&>();
-            if (auto data = decode_data_uri(uri, what))
-                bytes = keep(file, std::move(*data));
-            else
-                bytes = keep(file, triad::read_file(resolve_uri(uri, folder, what), file_cap));
+            try {
+                if (auto data = decode_data_uri(uri, what))
+                    bytes = keep(file, std::move(*data));
+                else
+                    bytes = keep(file, triad::read_file(resolve_uri(uri, folder, what), file_cap));
+            } catch (const Error&) {
+                if (!is_fallback(buffer)) throw;  // else an error only when used
+            }
         } else if (i == 0 && container.has_binary) {
             bytes = container.binary;
         }
@@ -173,9 +179,9 @@ void check_extras(const json& document) {
 
 /// Removes members that no part of Triad reads, wherever they are: less to parse, nothing to trip over.
 void strip(json& document) {
-    for (const char* member : {"buffers", "images", "animations", "skins", "extras"}) document.erase(member);
-    for (const char* list :
-         {"nodes", "meshes", "materials", "accessors", "bufferViews", "scenes", "cameras"}) {
+    for (const char* member : {"buffers", "images", "extras"}) document.erase(member);
+    for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews", "scenes", "cameras",
+                             "animations", "skins"}) {
         const auto found = document.find(list);
         if (found == document.end()) continue;
         for (json& element : *found) {
@@ -235,6 +241,19 @@ Bytes File::view(int buffer_view, const std::string& what) const {
     return buffer->subspan(view.byteOffset, view.byteLength);
 }
 
+json read_document(const fs::path& path) {
+    const std::vector<std::uint8_t> bytes = triad::read_file(path, file_cap);
+    json document = parse_json(split_container(bytes).json);
+    check_header(document);
+    check_document(document);
+    return document;
+}
+
+Error named(const Error& error, const fs::path& path) {
+    const std::string name = path.string(), sentence = error.what();
+    return sentence.find(name) != std::string::npos ? error : Error(error.exit(), name + ": " + sentence);
+}
+
 File read_file(const fs::path& path) {
     File file;
     file.storage.push_back(triad::read_file(path, file_cap));
@@ -244,10 +263,12 @@ File read_file(const fs::path& path) {
     check_header(document);
     check_extensions(document, file);
     check_document(document);
-    check_index_accessors(document);
     check_extras(document);
     read_buffers(document, path.parent_path(), container, file);
     check_views(document);
+    decode_meshopt(document, file);
+    decode_draco(document, file);
+    check_index_accessors(document);
     json images = document.contains("images") ? std::move(document["images"]) : json();
     json model = std::move(document);
     strip(model);

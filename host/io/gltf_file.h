@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "io/gltf_json.h"
 #include "io/io.h"
 
@@ -41,6 +42,12 @@ struct File {
 
 /// Reads, checks and parses. Throws as load_gltf.
 File read_file(const std::filesystem::path& path);
+
+/// The document alone, checked. Throws as load_gltf, but not for extensions.
+nlohmann::json read_document(const std::filesystem::path& path);
+
+/// The error with the file's name in its sentence.
+Error named(const Error& error, const std::filesystem::path& path);
 
 /// "mesh 3 'wheel'", for messages.
 std::string label(const char* kind, std::size_t index, const std::string& name);

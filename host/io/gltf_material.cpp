@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <fstream>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/parallel_for.h"
 #include "io/gltf_extras.h"
+#include "io/gltf_specular_glossiness.h"
 
 namespace triad::gltf {
 namespace {
@@ -70,13 +71,16 @@ std::array<float, 6> transform_of(const Value& extension) {
 }
 
 /// The extension that an image format belongs to which cannot be decoded here, by the first bytes.
-const char* unsupported_format(Bytes bytes) {
-    const auto starts = [&](const char* magic) {
-        return bytes.size() >= std::strlen(magic) &&
-               std::memcmp(bytes.data(), magic, std::strlen(magic)) == 0;
-    };
-    if (starts("\xabKTX 20\xbb") || starts("\xabKTX 11\xbb")) return "KHR_texture_basisu";
-    if (starts("DDS ")) return "MSFT_texture_dds";
+const char* unsupported_format(const ImageSource& image) {
+    std::string head(image.bytes.begin(),
+                     image.bytes.begin() + std::ptrdiff_t(std::min<std::size_t>(8, image.bytes.size())));
+    if (!image.path.empty()) {
+        char bytes[8] = {};
+        std::ifstream(image.path, std::ios::binary).read(bytes, sizeof bytes);
+        head.assign(bytes, sizeof bytes);
+    }
+    if (head.starts_with("\xabKTX 20\xbb") || head.starts_with("\xabKTX 11\xbb")) return "KHR_texture_basisu";
+    if (head.starts_with("DDS ")) return "MSFT_texture_dds";
     return nullptr;
 }
 
@@ -92,27 +96,52 @@ std::size_t Materials::use(int material) {
     return found->second;
 }
 
-std::size_t Materials::texture_with_sampler(int index, const std::string& what) {
-    const auto [found, is_new] = textures_.try_emplace(index, scene_.textures.size());
-    if (!is_new) return found->second;
+std::size_t Materials::use_for_strokes(int material, bool has_normals) {
+    const auto found = of_strokes_.find({material, has_normals});
+    if (found != of_strokes_.end()) return found->second;
+    Material m = scene_.materials[use(material)];
+    m.double_sided = true;
+    m.normal_texture.reset();
+    if (!has_normals && m.emission == vec3(0.0f)) {
+        m.unlit = true;
+    } else if (!has_normals) {  // as bright as it asks for, which unlit surfaces cannot be
+        m.emission += vec3(m.base_colour);
+        m.base_colour = vec4(vec3(0.0f), m.base_colour.w);
+        m.specular = 0.0f;
+    }
+    scene_.materials.push_back(m);
+    return of_strokes_[{material, has_normals}] = scene_.materials.size() - 1;
+}
+
+std::size_t Materials::image(int source, std::optional<double> glossiness) {
+    const auto [image, is_new] = images_.try_emplace({source, glossiness}, scene_.images.size());
+    if (is_new) {
+        scene_.images.push_back({.name = file_.images[std::size_t(source)].name});
+        image_sources_.emplace_back(source, glossiness);
+    }
+    return image->second;
+}
+
+std::optional<std::size_t> Materials::texture_with_sampler(int index, const std::string& what,
+                                                           std::optional<double> glossiness) {
+    const auto known = textures_.find({index, glossiness});
+    if (known != textures_.end()) return known->second;
     const tinygltf::Texture& texture = file_.model.textures[std::size_t(index)];
     const std::string name = what + ", " + label("texture", std::size_t(index), texture.name);
 
     int source = texture.source;
     if (const Value* webp = find(texture.extensions, "EXT_texture_webp"); webp && webp->Has("source"))
         source = webp->Get("source").GetNumberAsInt();
+    const char* needs = source < 0 ? nullptr : unsupported_format(file_.images[std::size_t(source)]);
     for (const char* other : {"KHR_texture_basisu", "MSFT_texture_dds"})
-        if (source < 0 && find(texture.extensions, other))
-            throw Error(Exit::unsupported, name + " needs " + other +
-                                               ", which is not supported; convert its image to PNG or JPEG.");
-    if (source < 0) throw Error(Exit::scene, name + " has no image.");
-
-    const auto [image, new_image] = images_.try_emplace(source, scene_.images.size());
-    if (new_image) {
-        scene_.images.push_back({.name = file_.images[std::size_t(source)].name});
-        image_sources_.push_back(source);
+        if (source < 0 && find(texture.extensions, other)) needs = other;
+    if (needs) {
+        file_.warn(name + " needs " + needs +
+                   ", which is not supported; it is left out (convert its image to PNG or JPEG).");
+        return std::nullopt;
     }
-    Texture result{.image = image->second};
+    if (source < 0) throw Error(Exit::scene, name + " has no image.");
+    Texture result{.image = image(source, glossiness)};
     if (texture.sampler >= 0) {
         const tinygltf::Sampler& sampler = file_.model.samplers[std::size_t(texture.sampler)];
         const std::string sampler_name = label("sampler", std::size_t(texture.sampler), sampler.name);
@@ -121,12 +150,12 @@ std::size_t Materials::texture_with_sampler(int index, const std::string& what) 
         result.linear = is_linear(sampler);
     }
     scene_.textures.push_back(result);
-    return found->second;
+    return textures_[{index, glossiness}] = scene_.textures.size() - 1;
 }
 
 std::optional<TextureUse> Materials::texture(const char* member, int index, int uv_set,
                                              const tinygltf::ExtensionMap& extensions,
-                                             const std::string& what) {
+                                             const std::string& what, std::optional<double> glossiness) {
     if (index < 0) return std::nullopt;
     TextureUse use;
     if (const Value* transform = find(extensions, "KHR_texture_transform")) {
@@ -139,8 +168,37 @@ std::optional<TextureUse> Materials::texture(const char* member, int index, int 
         return std::nullopt;
     }
     use.uv_set = unsigned(uv_set);
-    use.texture = texture_with_sampler(index, what);
+    const std::optional<std::size_t> converted = texture_with_sampler(index, what, glossiness);
+    if (!converted) return std::nullopt;
+    use.texture = *converted;
     return use;
+}
+
+std::optional<TextureUse> Materials::extension_texture(const Value& extension, const char* member,
+                                                       const std::string& what,
+                                                       std::optional<double> glossiness) {
+    if (!extension.Has(member)) return std::nullopt;
+    const Value& object = extension.Get(std::string(member));
+    tinygltf::ExtensionMap extensions;
+    if (object.Has("extensions")) extensions = object.Get("extensions").Get<Value::Object>();
+    return texture(member, int(number(object, "index", -1)), int(number(object, "texCoord", 0)), extensions,
+                   what, glossiness);
+}
+
+/// A Fresnel term of 1 (an ior of 0) leaves the specular colour as the reflectance at normal incidence.
+void Materials::convert_specular_glossiness(const Value& extension, const std::string& what, Material& m) {
+    m.base_colour = vec4(glm::clamp(colour(extension, "diffuseFactor", vec3(1.0f)), 0.0f, 1.0f), 1.0f);
+    if (extension.Has("diffuseFactor"))
+        m.base_colour.w = unit(extension.Get("diffuseFactor").Get(3).GetNumberAsDouble());
+    m.base_colour_texture = extension_texture(extension, "diffuseTexture", what);
+    m.metallic = 0.0f;
+    m.ior = 0.0f;
+    m.specular_colour = glm::clamp(colour(extension, "specularFactor", vec3(1.0f)), 0.0f, 1.0f);
+    m.specular_colour_texture = extension_texture(extension, "specularGlossinessTexture", what);
+    const double glossiness = std::clamp(number(extension, "glossinessFactor", 1.0), 0.0, 1.0);
+    m.metallic_roughness_texture =
+        extension_texture(extension, "specularGlossinessTexture", what, glossiness);
+    m.roughness = m.metallic_roughness_texture ? 1.0f : float(1.0 - glossiness);
 }
 
 Material Materials::convert(int index) {
@@ -150,14 +208,8 @@ Material Materials::convert(int index) {
     const auto info = [&](const char* member, const auto& texture_info) {
         return texture(member, texture_info.index, texture_info.texCoord, texture_info.extensions, what);
     };
-    const auto extension_texture = [&](const Value& extension,
-                                       const char* member) -> std::optional<TextureUse> {
-        if (!extension.Has(member)) return std::nullopt;
-        const Value& object = extension.Get(std::string(member));
-        tinygltf::ExtensionMap extensions;
-        if (object.Has("extensions")) extensions = object.Get("extensions").Get<Value::Object>();
-        return texture(member, int(number(object, "index", -1)), int(number(object, "texCoord", 0)),
-                       extensions, what);
+    const auto extension_texture = [&](const Value& extension, const char* member) {
+        return this->extension_texture(extension, member, what);
     };
 
     Material m;
@@ -218,6 +270,8 @@ Material Materials::convert(int index) {
             else
                 m.dispersion = abbe_dispersion(m.ior, dispersion);
         }
+    if (const Value* e = find(source.extensions, "KHR_materials_pbrSpecularGlossiness"))
+        convert_specular_glossiness(*e, what, m);
     apply_material_extras(source.extras, what, m, [this](const std::string& s) { file_.warn(s); });
     if (m.dispersion && !(m.transmission > 0.0f && m.thickness > 0.0f)) {
         file_.warn(what +
@@ -231,16 +285,15 @@ Material Materials::convert(int index) {
 void Materials::decode_images() {
     parallel_for(scene_.images.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const ImageSource& source = file_.images[std::size_t(image_sources_[i])];
+            const auto& [index, glossiness] = image_sources_[i];
+            const ImageSource& source = file_.images[std::size_t(index)];
             std::vector<std::uint8_t> bytes;
             if (source.path.empty())
                 bytes.assign(source.bytes.begin(), source.bytes.end());
             else
                 bytes = triad::read_file(source.path, image_cap);
-            if (const char* extension = unsupported_format(bytes))
-                throw Error(Exit::unsupported, source.name + " is of a format that needs " + extension +
-                                                   ", which is not supported; convert it to PNG or JPEG.");
             scene_.images[i] = decode_image(source.name, bytes);
+            if (glossiness) make_roughness(scene_.images[i], *glossiness);
         }
     });
 }

@@ -2,6 +2,10 @@
 /// Materials, textures and images, converted when a drawn primitive first uses them.
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "io/gltf_file.h"
 
@@ -15,20 +19,35 @@ class Materials {
     /// The scene's index of this glTF material (-1: the default material).
     std::size_t use(int material);
 
-    /// Decodes every image in use, on all cores. Throws Error(scene) that names the image, Error(unsupported)
-    /// that names the extension of a format that is not read.
+    /// The same for points and lines, as glTF 2.0 says: without normals they are not lit and show the sum of
+    /// base colour and emission. Normal maps are left out.
+    std::size_t use_for_strokes(int material, bool has_normals);
+
+    /// Decodes every image in use, on all cores. Throws Error(scene) that names the image.
     void decode_images();
 
   private:
     Material convert(int material);
     std::optional<TextureUse> texture(const char* member, int index, int uv_set,
-                                      const tinygltf::ExtensionMap& extensions, const std::string& what);
-    std::size_t texture_with_sampler(int index, const std::string& what);
+                                      const tinygltf::ExtensionMap& extensions, const std::string& what,
+                                      std::optional<double> glossiness = std::nullopt);
+    std::optional<TextureUse> extension_texture(const tinygltf::Value& extension, const char* member,
+                                                const std::string& what,
+                                                std::optional<double> glossiness = std::nullopt);
+    void convert_specular_glossiness(const tinygltf::Value& extension, const std::string& what, Material& m);
+    /// None: its image is of a format that is not read; a warning says so. `glossiness`: its factor where the
+    /// image is to become one of roughness.
+    std::optional<std::size_t> texture_with_sampler(int index, const std::string& what,
+                                                    std::optional<double> glossiness);
+    std::size_t image(int source, std::optional<double> glossiness);
 
     File& file_;
     Scene& scene_;
-    std::map<int, std::size_t> materials_, textures_, images_;
-    std::vector<int> image_sources_;  ///< of scene_.images
+    using Derived = std::pair<int, std::optional<double>>;  ///< the file's index, and the glossiness
+    std::map<int, std::size_t> materials_;
+    std::map<Derived, std::size_t> textures_, images_;
+    std::map<std::pair<int, bool>, std::size_t> of_strokes_;
+    std::vector<Derived> image_sources_;  ///< of scene_.images
 };
 
 /// A member of an extension that check_document() found to be a number, or its default.

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "io/gltf_accessor.h"
+#include "io/gltf_variants.h"
 #include "scene/tangents.h"
 
 namespace triad::gltf {
@@ -29,6 +30,20 @@ std::vector<uvec3> triangles_of(const std::vector<std::uint32_t>& indices, int m
             triangles.emplace_back(indices[i + 1], indices[i + 2], indices[0]);
     }
     return triangles;
+}
+
+/// Ends of the lines that indices mean; points are lines without length.
+std::vector<uvec2> strokes_of(const std::vector<std::uint32_t>& indices, int mode) {
+    std::vector<uvec2> strokes;
+    const std::size_t n = indices.size();
+    if (mode == TINYGLTF_MODE_POINTS) {
+        for (const std::uint32_t i : indices) strokes.emplace_back(i, i);
+    } else {
+        for (std::size_t i = 0; i + 1 < n; i += mode == TINYGLTF_MODE_LINE ? 2 : 1)
+            strokes.emplace_back(indices[i], indices[i + 1]);
+        if (mode == TINYGLTF_MODE_LINE_LOOP && n > 1) strokes.emplace_back(indices[n - 1], indices[0]);
+    }
+    return strokes;
 }
 
 /// Unit normals; a normal without length or with a NaN becomes that of the triangles around its vertex.
@@ -77,8 +92,9 @@ std::vector<vec2> transformed(const std::vector<vec2>& uvs, const TextureUse& us
 
 }  // namespace
 
-std::size_t Meshes::use(int index) {
-    const auto [found, is_new] = meshes_.try_emplace(index, scene_.meshes.size());
+std::size_t Meshes::use(int index, int skin, const Deformation& deformation) {
+    const auto [found, is_new] =
+        meshes_.try_emplace({index, skin, deformation.weights}, scene_.meshes.size());
     if (!is_new) return found->second;
     const tinygltf::Mesh& source = file_.model.meshes[std::size_t(index)];
     Mesh mesh;
@@ -86,21 +102,16 @@ std::size_t Meshes::use(int index) {
     for (std::size_t i = 0; i < source.primitives.size(); ++i) {
         const std::string what =
             label("mesh", std::size_t(index), source.name) + ", primitive " + std::to_string(i);
-        if (auto primitive = convert(source.primitives[i], what))
+        if (auto primitive = convert(source.primitives[i], deformation, what))
             mesh.primitives.push_back(std::move(*primitive));
     }
     scene_.meshes.push_back(std::move(mesh));
     return found->second;
 }
 
-std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, const std::string& what) {
+std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, const Deformation& deformation,
+                                         const std::string& what) {
     const int mode = source.mode < 0 ? TINYGLTF_MODE_TRIANGLES : source.mode;
-    if (mode < TINYGLTF_MODE_TRIANGLES) {
-        file_.warn(what + (mode == TINYGLTF_MODE_POINTS ? " is made of points" : " is made of lines") +
-                   ", which have no surface; it is left out.");
-        return std::nullopt;
-    }
-    if (!source.targets.empty()) file_.warn(what + " has morph targets; it is rendered undeformed.");
     const auto attribute = [&](const char* name) {
         const auto found = source.attributes.find(name);
         return found == source.attributes.end() ? -1 : found->second;
@@ -136,24 +147,23 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
         std::iota(indices.begin(), indices.end(), 0u);
     }
     file_.charge(indices.size() * (mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * sizeof(std::uint32_t), what);
+    const bool is_surface = mode >= TINYGLTF_MODE_TRIANGLES;
     if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
         file_.warn(what + " has " + std::to_string(indices.size()) +
                    " corners, no multiple of 3; the last are left out.");
-    p.triangles = triangles_of(indices, mode);
+    if (is_surface)
+        p.triangles = triangles_of(indices, mode);
+    else
+        p.strokes = strokes_of(indices, mode);
 
-    p.material = materials_.use(source.material);
+    const int material = material_of(source, variant_);
+    p.material = is_surface ? materials_.use(material)
+                            : materials_.use_for_strokes(material, attribute("NORMAL") >= 0);
     const std::optional<TextureUse> normal_map = scene_.materials[p.material].normal_texture;
-    if (const int normals = attribute("NORMAL"); normals >= 0) {
+    if (const int normals = attribute("NORMAL"); normals >= 0)
         p.normals = read_vec3(file_, normals, Integers::quantised, what + ": NORMAL");
-        normalise(p.normals, p);
-    }
-    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map) {
+    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map)
         p.tangents = read_vec4(file_, tangents, Integers::quantised, what + ": TANGENT");
-        if (!normalise(p.tangents)) {
-            file_.warn(what + " has tangents without direction; they are computed anew.");
-            p.tangents.clear();
-        }
-    }
     for (const auto& [name, accessor] : source.attributes)
         if (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1")
             file_.warn(what + " has the attribute " + name.substr(0, 40) +
@@ -176,6 +186,12 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
         }
         for (vec4& c : p.colours)
             for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
+    }
+    if (deformation.skin || !source.targets.empty()) deform(file_, source, deformation, p, what);
+    if (!p.normals.empty()) normalise(p.normals, p);
+    if (!normalise(p.tangents)) {
+        file_.warn(what + " has tangents without direction; they are computed anew.");
+        p.tangents.clear();
     }
     if (normal_map && p.tangents.empty() && !p.uvs[normal_map->uv_set].empty()) {
         if (p.normals.empty()) {

@@ -1,13 +1,18 @@
 /// Nodes: where meshes, lights and cameras are.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <new>
 
 #include "base/error.h"
-#include "io/gltf_accessor.h"
+#include "io/gltf_animation.h"
 #include "io/gltf_extras.h"
+#include "io/gltf_instancing.h"
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
+#include "io/gltf_node.h"
+#include "io/gltf_skin.h"
+#include "io/gltf_variants.h"
 #include "scene/scene.h"
 
 namespace triad::gltf {
@@ -18,35 +23,22 @@ using tinygltf::Value;
 constexpr std::uint64_t bytes_per_instance =
     1024;  // what an instance costs, in the scene and in what is built from it
 
-dmat4 translate_rotate_scale(const dvec3& t, const dquat& r, const dvec3& s) {
-    const dmat3 m = glm::mat3_cast(r);
-    return dmat4(dvec4(m[0] * s.x, 0.0), dvec4(m[1] * s.y, 0.0), dvec4(m[2] * s.z, 0.0), dvec4(t, 1.0));
-}
-
-/// True when the matrix can be inverted with some accuracy left.
-bool is_invertible(const dmat4& m) {
-    const double volume = glm::length(dvec3(m[0])) * glm::length(dvec3(m[1])) * glm::length(dvec3(m[2]));
-    const double det = glm::determinant(dmat3(m));
-    return std::isfinite(volume) && volume > 0.0 && std::abs(det) > 1e-12 * volume;
-}
-
-const Value* extension_of(const tinygltf::Node& node, const char* name) {
-    const auto found = node.extensions.find(name);
-    return found != node.extensions.end() && found->second.IsObject() ? &found->second : nullptr;
-}
-
 class SceneBuilder {
   public:
-    explicit SceneBuilder(File& file)
-        : file_(file), materials_(file, scene_), meshes_(file, scene_, materials_) {}
+    SceneBuilder(File& file, const GltfChoice& choice)
+        : file_(file),
+          choice_(choice),
+          nodes_(file, pose_at(file, choose_animation(file, choice.animation), choice.time)),
+          materials_(file, scene_),
+          meshes_(file, scene_, materials_, find_variant(file, choice.variant)) {}
 
-    Scene build(const GltfChoice& choice) {
+    Scene build() {
         const auto& scenes = file_.model.scenes;
-        if (choice.scene >= int(scenes.size()))
-            throw Error(Exit::scene, "Scene " + std::to_string(choice.scene) +
+        if (choice_.scene >= int(scenes.size()))
+            throw Error(Exit::scene, "Scene " + std::to_string(choice_.scene) +
                                          " was asked for, but the file has " + std::to_string(scenes.size()) +
                                          ".");
-        const int chosen = choice.scene >= 0 ? choice.scene : std::max(file_.model.defaultScene, 0);
+        const int chosen = choice_.scene >= 0 ? choice_.scene : std::max(file_.model.defaultScene, 0);
         if (chosen < int(scenes.size())) {
             scene_.name = scenes[std::size_t(chosen)].name;
             walk(scenes[std::size_t(chosen)].nodes);
@@ -61,14 +53,12 @@ class SceneBuilder {
   private:
     struct Visit {
         int node;
-        dmat4 parent;
         bool visible;
     };
 
     void walk(const std::vector<int>& roots) {
         std::vector<Visit> stack;
-        for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-            stack.push_back({*root, dmat4(1.0), true});
+        for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, true});
         std::vector<bool> visited(file_.model.nodes.size());
         while (!stack.empty()) {
             Visit visit = stack.back();
@@ -79,95 +69,49 @@ class SceneBuilder {
                 throw Error(Exit::scene,
                             label("node", index, node.name) + " is in the scene more than once.");
             visited[index] = true;
-            const dmat4 to_world = visit.parent * local_transform(node, index);
+            const dmat4& to_world = nodes_.to_world(index);
             if (const Value* e = extension_of(node, "KHR_node_visibility"); e && e->Has("visible"))
                 visit.visible = visit.visible && e->Get("visible").Get<bool>();
-            if (node.mesh >= 0 && visit.visible) place_mesh(node, index, to_world);
+            if (node.mesh >= 0 && visit.visible) place_mesh(node, index);
             if (visit.visible) place_light(node, index, to_world);
             if (node.camera >= 0) place_camera(node, index, to_world);
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-                stack.push_back({*child, to_world, visit.visible});
+                stack.push_back({*child, visit.visible});
         }
     }
 
-    dmat4 local_transform(const tinygltf::Node& node, std::size_t index) {
+    /// A skin puts its mesh where the joints are, wherever its node is.
+    const Skin* skin_of(const tinygltf::Node& node) {
+        if (node.skin < 0) return nullptr;
+        const auto found = skins_.find(node.skin);
+        return &(found != skins_.end() ? found
+                                       : skins_.emplace(node.skin, skin_at(file_, nodes_, node.skin)).first)
+                    ->second;
+    }
+
+    void place_mesh(const tinygltf::Node& node, std::size_t index) {
         const std::string what = label("node", index, node.name);
-        if (!node.matrix.empty()) {
-            if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty())
-                throw Error(Exit::scene, what + " has both a matrix and translation, rotation or scale.");
-            dmat4 m = glm::make_mat4(node.matrix.data());
-            if (m[0].w != 0.0 || m[1].w != 0.0 || m[2].w != 0.0 || m[3].w != 1.0) {
-                file_.warn(what + " has a projective matrix; its last row is taken as 0 0 0 1.");
-                m[0].w = m[1].w = m[2].w = 0.0, m[3].w = 1.0;
-            }
-            return m;
+        const Skin* skin = skin_of(node);
+        const std::size_t mesh = meshes_.use(node.mesh, node.skin, {nodes_.weights(index), skin});
+        const dmat4 to_world = skin ? glm::translate(dmat4(1.0), skin->centre) : nodes_.to_world(index);
+        const std::string& name = node.name.empty() ? scene_.meshes[mesh].name : node.name;
+        const Value* extension = extension_of(node, "EXT_mesh_gpu_instancing");
+        if (!extension) {
+            file_.charge(bytes_per_instance, what);
+            return place({name, mesh, to_world}, what);
         }
-        const auto vector = [](const std::vector<double>& v, double otherwise) {
-            return v.empty() ? dvec3(otherwise) : dvec3(v[0], v[1], v[2]);
-        };
-        dquat rotation(1.0, 0.0, 0.0, 0.0);
-        if (const auto& r = node.rotation; !r.empty())
-            rotation = unit_quaternion(dquat(r[3], r[0], r[1], r[2]), what);
-        return translate_rotate_scale(vector(node.translation, 0.0), rotation, vector(node.scale, 1.0));
+        const Instancing instancing(file_, *extension, what);
+        file_.charge(instancing.size() * sizeof(MeshInstance), what);
+        scene_.instances.reserve(scene_.instances.size() + instancing.size());
+        for (std::size_t i = 0; i < instancing.size(); ++i)
+            place({name, mesh, to_world * instancing.transform(i)}, what);
     }
 
-    static dquat unit_quaternion(const dquat& q, const std::string& what) {
-        const double length = glm::length(q);
-        if (!(length > 1e-9) || !std::isfinite(length))
-            throw Error(Exit::scene, what + " has a rotation that is no unit quaternion.");
-        return q / length;
-    }
-
-    void place_mesh(const tinygltf::Node& node, std::size_t index, const dmat4& to_world) {
-        if (node.skin >= 0)
-            file_.warn(label("node", index, node.name) + " has a skin; its mesh is rendered undeformed.");
-        const std::size_t mesh = meshes_.use(node.mesh);
-        const Value* instancing = extension_of(node, "EXT_mesh_gpu_instancing");
-        if (!instancing) return place(node, index, mesh, to_world);
-        for (const dmat4& instance : instance_transforms(*instancing, label("node", index, node.name)))
-            place(node, index, mesh, to_world * instance);
-    }
-
-    void place(const tinygltf::Node& node, std::size_t index, std::size_t mesh, const dmat4& to_world) {
-        if (!is_invertible(to_world))
-            return file_.warn(label("node", index, node.name) + " is scaled to nothing; it is left out.");
-        file_.charge(bytes_per_instance, label("node", index, node.name));
-        scene_.instances.push_back(
-            {node.name.empty() ? scene_.meshes[mesh].name : node.name, mesh, to_world});
-    }
-
-    std::vector<dmat4> instance_transforms(const Value& extension, const std::string& node) {
-        const std::string what = node + ", EXT_mesh_gpu_instancing";
-        const Value& attributes = extension.Get("attributes");
-        const auto accessor = [&](const char* name) {
-            return attributes.Has(name) ? attributes.Get(std::string(name)).GetNumberAsInt() : -1;
-        };
-        std::optional<std::size_t> count;
-        for (const std::string& name : attributes.Keys()) {
-            const std::size_t n =
-                file_.model.accessors[std::size_t(attributes.Get(name).GetNumberAsInt())].count;
-            if (count.value_or(n) != n)
-                throw Error(Exit::scene, what + ": its attributes have different counts.");
-            count = n;
-        }
-        std::vector<vec3> translations, scales;
-        std::vector<vec4> rotations;
-        if (const int a = accessor("TRANSLATION"); a >= 0)
-            translations = read_vec3(file_, a, Integers::none, what + ": TRANSLATION");
-        if (const int a = accessor("ROTATION"); a >= 0)
-            rotations = read_vec4(file_, a, Integers::signed_normalised, what + ": ROTATION");
-        if (const int a = accessor("SCALE"); a >= 0)
-            scales = read_vec3(file_, a, Integers::none, what + ": SCALE");
-        file_.charge(count.value_or(0) * bytes_per_instance, what);
-        std::vector<dmat4> result;
-        for (std::size_t i = 0; i < count.value_or(0); ++i) {
-            const vec4 r = rotations.empty() ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : rotations[i];
-            result.push_back(
-                translate_rotate_scale(translations.empty() ? dvec3(0.0) : dvec3(translations[i]),
-                                       unit_quaternion(dquat(r.w, r.x, r.y, r.z), what),
-                                       scales.empty() ? dvec3(1.0) : dvec3(scales[i])));
-        }
-        return result;
+    void place(MeshInstance instance, const std::string& what) {
+        if (is_invertible(instance.to_world))
+            scene_.instances.push_back(std::move(instance));
+        else
+            file_.warn(what + " is scaled to nothing; it is left out.");
     }
 
     void place_light(const tinygltf::Node& node, std::size_t index, const dmat4& to_world) {
@@ -239,6 +183,9 @@ class SceneBuilder {
     }
 
     File& file_;
+    const GltfChoice& choice_;
+    Nodes nodes_;
+    std::map<int, Skin> skins_;
     Scene scene_;
     Materials materials_;
     Meshes meshes_;
@@ -252,13 +199,11 @@ namespace triad {
 Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice, GltfReport* report) {
     try {
         gltf::File file = gltf::read_file(path);
-        Scene scene = gltf::SceneBuilder(file).build(choice);
+        Scene scene = gltf::SceneBuilder(file, choice).build();
         if (report) *report = std::move(file.report);
         return scene;
     } catch (const Error& e) {
-        const std::string name = path.string();
-        if (std::string(e.what()).find(name) != std::string::npos) throw;
-        throw Error(e.exit(), name + ": " + e.what());
+        throw gltf::named(e, path);
     } catch (const std::bad_alloc&) {
         throw Error(Exit::memory, path.string() + ": there is not enough memory for this scene.");
     } catch (const std::length_error&) {

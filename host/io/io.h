@@ -12,7 +12,11 @@
 namespace triad {
 
 struct GltfChoice {
-    int scene = -1;  ///< -1: the file's default scene, else scene 0
+    int scene = -1;       ///< -1: the file's default scene, else scene 0
+    std::string variant;  ///< KHR_materials_variants, by name; empty: every primitive's own material
+    /// By name or index; "none": nodes as they are; empty: the first that there is.
+    std::string animation;
+    double time = 0;  ///< seconds: where in the animation
 };
 
 /// What a file contained beside the scene, for `triad info` and for warnings.
@@ -22,7 +26,8 @@ struct GltfReport {
 };
 
 /// Reads .gltf or .glb, following the hard rules for untrusted files. Throws Error(scene) that names the
-/// object at fault, Error(unsupported) that names a required extension. Warnings are returned, not printed.
+/// object at fault, Error(unsupported) that names a required extension, Error(usage) for a choice that the
+/// file does not have. Warnings are returned, not printed.
 Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice = {},
                 GltfReport* report = nullptr);
 

@@ -66,6 +66,7 @@ void put(Hash& h, const Mesh& mesh) {
         put_array(h, p.uvs[1]);
         put_array(h, p.colours);
         put_array(h, p.triangles);
+        if (!p.strokes.empty()) put_array(h, p.strokes);
         h.add_value(p.material);
     }
 }
@@ -75,9 +76,12 @@ void put(Hash& h, const Mesh& mesh) {
 Bounds bounds_of(const Scene& scene) {
     Bounds bounds;
     for (const MeshInstance& instance : scene.instances)
-        for (const Primitive& p : scene.meshes[instance.mesh].primitives)
+        for (const Primitive& p : scene.meshes[instance.mesh].primitives) {
             for (const uvec3& t : p.triangles)
                 for (int k = 0; k < 3; ++k) bounds.add(transform_point(instance.to_world, p.positions[t[k]]));
+            for (const uvec2& s : p.strokes)
+                for (int k = 0; k < 2; ++k) bounds.add(transform_point(instance.to_world, p.positions[s[k]]));
+        }
     return bounds;
 }
 

@@ -85,6 +85,7 @@ struct Primitive {
     std::vector<vec2> uvs[2];
     std::vector<vec4> colours;
     std::vector<uvec3> triangles;  ///< corners, counter-clockwise seen from the front
+    std::vector<uvec2> strokes;    ///< ends of thin lines; points where both are one. See strokes.h
     std::size_t material = 0;
 };
 

@@ -131,7 +131,10 @@ std::size_t drop_undrawable(Primitive& p) {
         const dvec3 n = glm::cross(b - a, c - a);
         return !is_finite(a) || !is_finite(b) || !is_finite(c) || n == dvec3(0.0);
     };
-    const std::size_t dropped = std::erase_if(p.triangles, is_undrawable);
+    const std::size_t dropped =
+        std::erase_if(p.triangles, is_undrawable) + std::erase_if(p.strokes, [&](const uvec2& s) {
+            return !is_finite(p.positions[s.x]) || !is_finite(p.positions[s.y]);
+        });
     for (vec3& position : p.positions)  // what is left of them belongs to no triangle
         if (!is_finite(position)) position = vec3(0.0f);
     return dropped;
@@ -148,6 +151,8 @@ std::size_t check_primitive(const Scene& scene, Primitive& p, const std::string&
             what, "has attributes that are no numbers");
     for (const uvec3& t : p.triangles)
         require(t.x < count && t.y < count && t.z < count, what, "has a triangle corner that does not exist");
+    for (const uvec2& s : p.strokes)
+        require(s.x < count && s.y < count, what, "has the end of a line that does not exist");
     for (const vec3& n : p.normals)
         require(std::abs(glm::dot(n, n) - 1.0f) < 1e-3f, what, "has a normal that is not of unit length");
     for (const vec4& t : p.tangents)
@@ -156,6 +161,8 @@ std::size_t check_primitive(const Scene& scene, Primitive& p, const std::string&
     const std::size_t dropped = drop_undrawable(p);
     for (const uvec3& t : p.triangles)
         for (int c = 0; c < 3; ++c) require_near(p.positions[t[c]], what);
+    for (const uvec2& s : p.strokes)
+        for (int c = 0; c < 2; ++c) require_near(p.positions[s[c]], what);
     return dropped;
 }
 
@@ -207,7 +214,8 @@ void check_placed(const Scene& scene) {
 /// places.
 void drop_empty(Scene& scene) {
     for (Mesh& mesh : scene.meshes)
-        std::erase_if(mesh.primitives, [](const Primitive& p) { return p.triangles.empty(); });
+        std::erase_if(mesh.primitives,
+                      [](const Primitive& p) { return p.triangles.empty() && p.strokes.empty(); });
     std::erase_if(scene.instances,
                   [&](const MeshInstance& i) { return scene.meshes[i.mesh].primitives.empty(); });
 }

@@ -65,13 +65,14 @@ View choose_view(const RenderRequest& options, const Scene& scene, const SceneCa
 
 bool has_light(const Scene& scene) {
     if (!scene.lights.empty() || scene.environment || scene.sky != vec3(0.0f)) return true;
-    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const MeshInstance& instance) {
-        const auto& primitives = scene.meshes[instance.mesh].primitives;
-        return std::any_of(primitives.begin(), primitives.end(), [&](const Primitive& p) {
+    bool all_unlit = true;
+    for (const MeshInstance& instance : scene.instances)
+        for (const Primitive& p : scene.meshes[instance.mesh].primitives) {
             const Material& material = scene.materials[p.material];
-            return material.emission != vec3(0.0f) || material.unlit;
-        });
-    });
+            if (material.emission != vec3(0.0f)) return true;
+            if (!material.unlit && !p.triangles.empty()) all_unlit = false;
+        }
+    return all_unlit;
 }
 
 }  // namespace triad

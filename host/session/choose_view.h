@@ -17,7 +17,7 @@ uvec2 choose_size(const RenderRequest& options, const SceneCamera* camera);
 /// Throws Error(scene) "nothing to render" when there is nothing to frame.
 View choose_view(const RenderRequest& options, const Scene& scene, const SceneCamera* camera, uvec2 size);
 
-/// Whether anything in the scene gives light.
+/// Whether anything in the scene gives light, or nothing needs any: all is unlit.
 bool has_light(const Scene& scene);
 
 }  // namespace triad

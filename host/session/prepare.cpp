@@ -12,6 +12,7 @@
 #include "base/spans.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
+#include "scene/strokes.h"
 #include "session/choose_view.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
@@ -59,16 +60,25 @@ void apply_glass(Scene& scene, const std::string& text) {
 Scene load_scene(const RenderRequest& o) {
     Scene scene;
     if (o.scene_path.empty()) {
+        if (!o.variant.empty() || !o.animation.empty() || o.pose_time != 0)
+            throw Error(Exit::usage,
+                        "The built-in scene has no variants and no animations: --variant, --animation and "
+                        "--pose-time go with a file.");
         scene = builtin_scene();
     } else {
         GltfReport report;
-        scene = load_gltf(o.scene_path, {o.scene_index}, &report);
+        scene = load_gltf(o.scene_path, {o.scene_index, o.variant, o.animation, o.pose_time}, &report);
         for (const std::string& warning : report.warnings) warn(warning);
     }
     for (const std::string& text : o.glass) apply_glass(scene, text);
     if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
     if (const std::size_t dropped = validate(scene))
         detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
+    if (has_strokes(scene)) {
+        const RenderSettings settings = settings_of(o, scene);
+        draw_strokes(scene, settings.view, settings.height, o.point_size);
+        validate(scene);
+    }
     if (!has_light(scene)) {
         scene.sky = vec3(1.0f);
         inform("The scene has no light: it gets a plain white sky (--env FILE lights it with a panorama).");

@@ -17,6 +17,13 @@ RenderGoal RenderRequest::goal() const {
 }
 
 void complete(RenderRequest& o) {
+    if (o.frames && (o.pixel || o.pose_time != 0))
+        throw Error(
+            Exit::usage,
+            "--frames makes many pictures, each at its own moment: it cannot be combined with --pixel "
+            "or --pose-time.");
+    if (o.frames && (std::count(o.outputs.begin(), o.outputs.end(), "-") > 0 || o.json_path == "-"))
+        throw Error(Exit::usage, "--frames numbers its files: none can go to standard output.");
     if (o.pixel && (!o.outputs.empty() || !o.film_path.empty() || o.crop || o.error || o.time || o.adaptive))
         throw Error(
             Exit::usage,

@@ -58,6 +58,12 @@ struct RenderRequest {
     std::optional<double> fov;  ///< vertical, degrees
     std::optional<double> aperture, focus;
 
+    std::string variant;                ///< of the file's materials; empty: none
+    std::string animation;              ///< name, index, "none"; empty: the first
+    double pose_time = 0;               ///< seconds of it
+    std::optional<SampleRange> frames;  ///< a picture of each, frame k at k / fps seconds
+    double fps = 24;
+    double point_size = 1.5;         ///< pixels: width of points and lines
     std::vector<std::string> glass;  ///< MATERIAL=NAME
     std::string env_path;
     double env_rotate = 0;  ///< degrees

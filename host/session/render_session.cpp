@@ -217,6 +217,9 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
     metadata["triad:scene_name"] = scene_name();
+    if (!request_.variant.empty()) metadata["triad:variant"] = request_.variant;
+    if (!request_.animation.empty()) metadata["triad:animation"] = request_.animation;
+    if (request_.pose_time != 0) metadata["triad:pose_time"] = format("%.9g", request_.pose_time);
     metadata["triad:machine"] = machine_words();
     unsigned units = 0;
     for (const Device& device : devices_) units += device.info().compute_units;

@@ -197,8 +197,27 @@ std::string seed_scene() {
 "buffers":[{"byteLength":39,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEC"}]})";
 }
 
-TEST(GltfFuzz, random_changes_to_a_good_file_never_crash_the_loader) {
-    const std::string seed = seed_scene();
+/// The same for what poses are made of: a skin, a morph target, an animation of a joint and of weights; and
+/// points.
+std::string seed_pose() {
+    return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1]}],
+"nodes":[{"mesh":0,"skin":0},{"children":[2],"translation":[0,1,0]},{"translation":[0,0,1]},{"mesh":0,"weights":[0.5]}],
+"skins":[{"joints":[1,2]}],"animations":[{"samplers":[{"input":3,"output":4},{"input":3,"output":5,"interpolation":"STEP"}],
+"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},{"sampler":1,"target":{"node":0,"path":"weights"}}]}],
+"meshes":[{"weights":[0.25],"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"targets":[{"POSITION":0}]},
+{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"targets":[{"POSITION":0}],"mode":2}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"},
+{"bufferView":1,"byteOffset":12,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"},
+{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR"},{"bufferView":2,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":2,"byteOffset":32,"componentType":5126,"count":2,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},{"buffer":0,"byteOffset":60,"byteLength":40}],
+"buffers":[{"byteLength":100,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEAAAEAAAAAAAAAgH8AAP8AAAD/AAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAQAAAQEAAAAAAAACAPw=="}]})";
+}
+
+class GltfFuzzSeed : public testing::TestWithParam<std::string (*)()> {};
+
+TEST_P(GltfFuzzSeed, random_changes_to_a_good_file_never_crash_the_loader) {
+    const std::string seed = GetParam()();
     const fs::path file = fs::temp_directory_path() / ("triad-fuzz-" + std::to_string(::getpid()) + ".gltf");
     std::ofstream(file) << seed;
     ASSERT_NO_THROW(load_gltf(file));
@@ -233,6 +252,8 @@ TEST(GltfFuzz, random_changes_to_a_good_file_never_crash_the_loader) {
     EXPECT_GT(loaded, 100);
     EXPECT_LT(loaded, 2900);
 }
+
+INSTANTIATE_TEST_SUITE_P(Seeds, GltfFuzzSeed, testing::Values(seed_scene, seed_pose));
 
 }  // namespace
 }  // namespace triad

@@ -31,7 +31,7 @@ struct GltfBuilder {
 
     template <class T>
     std::size_t accessor(const std::vector<T>& data, const std::string& type, bool normalised = false) {
-        const int components = type == "SCALAR" ? 1 : type[3] - '0';
+        const int components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type[3] - '0';
         const int component = std::is_same_v<T, std::int8_t>     ? 5120
                               : std::is_same_v<T, std::uint8_t>  ? 5121
                               : std::is_same_v<T, std::int16_t>  ? 5122

@@ -135,11 +135,34 @@ TEST(GltfGeometry, normals_without_length_become_those_of_their_triangles) {
     EXPECT_EQ(only_primitive(scene).normals, (std::vector<vec3>{{0, 0, 1}, {0, 0.6f, 0.8f}, {0, 0, 1}}));
 }
 
-TEST(GltfGeometry, points_and_lines_are_left_out_and_reported) {
+TEST(GltfGeometry, points_and_lines_become_strokes) {
+    const auto strokes = [](int mode) {
+        GltfBuilder b;
+        b.triangle().primitive()["mode"] = mode;
+        const Scene scene = b.load();
+        const Primitive& p = only_primitive(scene);
+        EXPECT_TRUE(p.triangles.empty());
+        EXPECT_TRUE(scene.materials[p.material].unlit) << "it has no normals";
+        return p.strokes;
+    };
+    EXPECT_EQ(strokes(0), (std::vector<uvec2>{{0, 0}, {1, 1}, {2, 2}}));
+    EXPECT_EQ(strokes(1), (std::vector<uvec2>{{0, 1}}));
+    EXPECT_EQ(strokes(2), (std::vector<uvec2>{{0, 1}, {1, 2}, {2, 0}}));
+    EXPECT_EQ(strokes(3), (std::vector<uvec2>{{0, 1}, {1, 2}}));
+}
+
+TEST(GltfGeometry, strokes_with_normals_are_lit_and_emission_without_adds_up) {
     GltfBuilder b;
-    b.triangle().primitive()["mode"] = 1;
-    EXPECT_TRUE(b.load().instances.empty());
-    EXPECT_TRUE(b.warned("made of lines"));
+    b.triangle().primitive()["mode"] = 0;
+    b.document["materials"] = {
+        {{"emissiveFactor", {0, 1, 0}}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0, 0, 1}}}}}};
+    b.primitive()["material"] = 0;
+    const Scene bare = b.load();
+    EXPECT_EQ(bare.materials[only_primitive(bare).material].emission, vec3(0.5f, 1, 0));
+    b.primitive()["attributes"]["NORMAL"] = b.accessor(Floats{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const Scene lit = b.load();
+    EXPECT_FALSE(lit.materials[only_primitive(lit).material].unlit);
+    EXPECT_EQ(lit.materials[only_primitive(lit).material].emission, vec3(0, 1, 0));
 }
 
 TEST(GltfGeometry, attributes_of_different_lengths_are_refused_by_name) {

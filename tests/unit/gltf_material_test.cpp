@@ -125,13 +125,51 @@ TEST(GltfMaterial, an_image_that_cannot_be_decoded_is_named) {
     EXPECT_NE(b.refusal().find("image 0 'glow'"), std::string::npos) << b.refusal();
 }
 
-TEST(GltfMaterial, ktx_is_refused_by_the_name_of_its_extension) {
+TEST(GltfMaterial, ktx_is_left_out_unless_there_is_another_image_and_refused_where_it_is_required) {
     GltfBuilder b;
     with_material(b, {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}).texture();
-    b.document["images"][0]["uri"] = "data:image/ktx2;base64,q0tUWCAyMLsNChoK";
-    EXPECT_NE(b.refusal(Exit::unsupported).find("KHR_texture_basisu"), std::string::npos) << b.refusal();
-    b.document["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
-    EXPECT_NE(b.refusal(Exit::unsupported).find("KHR_texture_basisu"), std::string::npos) << b.refusal();
+    b.document["images"].push_back({{"uri", "data:image/ktx2;base64,q0tUWCAyMLsNChoK"}});
+    b.document["textures"][0] = {{"source", 0}, {"extensions", {{"KHR_texture_basisu", {{"source", 1}}}}}};
+    EXPECT_TRUE(only_material(b).base_colour_texture.has_value());
+    EXPECT_FALSE(b.warned("left out (convert"));
+    b.document["textures"][0].erase("source");
+    EXPECT_FALSE(only_material(b).base_colour_texture.has_value());
+    EXPECT_TRUE(b.warned("needs KHR_texture_basisu"));
+    b.document["textures"][0] = {{"source", 1}};  // not declared at all
+    EXPECT_FALSE(only_material(b).base_colour_texture.has_value());
+    EXPECT_TRUE(b.warned("needs KHR_texture_basisu"));
+    b.document["extensionsRequired"] = {"KHR_texture_basisu"};
+    EXPECT_NE(b.refusal(Exit::unsupported).find("KHR_texture_basisu"), std::string::npos);
+}
+
+TEST(GltfMaterial, specular_glossiness_becomes_a_dielectric_of_that_reflectance) {
+    GltfBuilder b;
+    const nlohmann::json model{{"diffuseFactor", {0.5, 0.25, 1, 0.5}},
+                               {"specularFactor", {0.2, 0.3, 0.4}},
+                               {"glossinessFactor", 0.75}};
+    const Material m =
+        only_material(with_material(b, {{"pbrMetallicRoughness", {{"metallicFactor", 1}}},
+                                        {"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}));
+    EXPECT_EQ(m.base_colour, vec4(0.5f, 0.25f, 1, 0.5f));
+    EXPECT_EQ(m.metallic, 0.0f);
+    EXPECT_EQ(m.roughness, 0.25f);
+    EXPECT_EQ(m.ior, 0.0f) << "a Fresnel term of one: the specular colour is the reflectance";
+    EXPECT_EQ(m.specular_colour, vec3(0.2f, 0.3f, 0.4f));
+}
+
+TEST(GltfMaterial, glossiness_textures_become_roughness_texel_by_texel) {
+    GltfBuilder b;
+    const nlohmann::json model{{"specularGlossinessTexture", {{"index", 0}}}, {"glossinessFactor", 0.5}};
+    with_material(b, {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}).texture();
+    const Scene scene = b.load();
+    const Material& m = scene.materials.at(0);
+    const auto texels = [&](const std::optional<TextureUse>& use) {
+        return scene.images.at(scene.textures.at(use.value().texture).image).texels;
+    };
+    EXPECT_EQ(m.roughness, 1.0f);
+    EXPECT_EQ(texels(m.specular_colour_texture), (std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 128}));
+    EXPECT_EQ(texels(m.metallic_roughness_texture),
+              (std::vector<std::uint8_t>{0, 128, 0, 255, 0, 191, 0, 255}));
 }
 
 TEST(GltfMaterial, an_unknown_extension_is_refused_when_required_and_reported_when_used) {

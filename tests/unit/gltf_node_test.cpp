@@ -73,6 +73,43 @@ TEST(GltfNode, instancing_places_the_mesh_once_per_element_and_not_by_itself) {
     expect_near(transform_point(scene.instances[1].to_world, {1, 0, 0}), {-1, 2, 7});
 }
 
+TEST(GltfNode, instances_with_attributes_of_different_counts_are_refused) {
+    GltfBuilder b;
+    b.triangle();
+    const auto t = b.accessor(std::vector<float>{1, 0, 0, 0, 2, 0}, "VEC3");
+    const auto s = b.accessor(std::vector<float>{1, 1, 1}, "VEC3");
+    b.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", t},
+                                                                                     {"SCALE", s}};
+    EXPECT_NE(b.refusal().find("different counts"), std::string::npos) << b.refusal();
+}
+
+TEST(GltfNode, instances_without_extent_are_left_out_with_one_warning) {
+    GltfBuilder b;
+    b.triangle();
+    const auto s = b.accessor(std::vector<float>{1, 0, 1, 2, 2, 2, 0, 0, 0}, "VEC3");
+    b.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"SCALE", s}};
+    const Scene scene = b.load();
+    ASSERT_EQ(scene.instances.size(), 1u);
+    expect_near(transform_point(scene.instances[0].to_world, {1, 0, 0}), {2, 0, 0});
+    EXPECT_EQ(b.report.warnings.size(), 1u);
+}
+
+TEST(GltfNode, a_million_instances_load_as_instances_of_one_mesh) {
+    constexpr std::size_t count = 1'000'000;
+    GltfBuilder b;
+    b.triangle();
+    std::vector<float> translations;
+    for (std::size_t i = 0; i < count; ++i)
+        translations.insert(translations.end(), {float(i % 1000), float(i / 1000), 0.0f});
+    const auto t = b.accessor(translations, "VEC3");
+    b.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", t}};
+    const Scene scene = b.load();
+    EXPECT_EQ(scene.meshes.size(), 1u);
+    ASSERT_EQ(scene.instances.size(), count);
+    EXPECT_LE(scene.instances.capacity(), count + 1);
+    expect_near(dvec3(scene.instances.back().to_world[3]), {999, 999, 0});
+}
+
 TEST(GltfNode, lights_shine_along_their_node_and_scale_changes_nothing_else) {
     GltfBuilder b;
     b.triangle().document["extensions"]["KHR_lights_punctual"]["lights"] = {

@@ -51,8 +51,9 @@ const std::map<std::string, Names> below = [] {
 
 /// Packages and their owners: how their headers begin.
 const std::map<std::string, Names> owners = {
-    {"CL/", {"device"}},  {"tiny_gltf", {"io"}}, {"OpenImageIO/", {"io"}}, {"CLI/", {"cli", "replay"}},
-    {"xxhash", {"base"}}, {"glm/", {"base"}},    {"fftw3", {"panel"}},     {"zstd", {"capture"}}};
+    {"CL/", {"device"}},       {"tiny_gltf", {"io"}},       {"OpenImageIO/", {"io"}}, {"draco/", {"io"}},
+    {"meshoptimizer", {"io"}}, {"CLI/", {"cli", "replay"}}, {"xxhash", {"base"}},     {"glm/", {"base"}},
+    {"fftw3", {"panel"}},      {"zstd", {"capture"}}};
 
 /// Which folders of kernels/ the headers of a folder may include from, beside itself and common. Programs
 /// (.cl) compose them all.

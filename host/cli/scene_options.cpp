@@ -1,0 +1,51 @@
+/// What of the scene's file is rendered.
+#include "cli/command_line.h"
+#include "cli/option_kinds.h"
+#include "cli/render_options.h"
+
+namespace triad {
+namespace {
+
+const char* const scene_group = "Scene";
+
+}  // namespace
+
+void declare_scene(CLI::App& command, RenderRequest& o) {
+    command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
+        ->check(CLI::NonNegativeNumber)
+        ->type_name("N")
+        ->group(scene_group);
+    command
+        .add_option("--variant", o.variant,
+                    "Of the file's materials (KHR_materials_variants; triad info lists them; default: every "
+                    "primitive's own material)")
+        ->type_name("NAME")
+        ->group(scene_group);
+    command
+        .add_option("--animation", o.animation,
+                    "Of the file, or none for nodes as they are (default: the first)")
+        ->type_name("NAME|INDEX")
+        ->group(scene_group);
+    command.add_option("--pose-time", o.pose_time, "Where in the animation, in seconds (default 0)")
+        ->check(number_within(-1e9, 1e9))
+        ->type_name("T")
+        ->group(scene_group);
+    add_parsed(
+        command, "--frames", "A:B",
+        "A picture of each of these frames (half-open; frame k is at k / --fps seconds): a.png becomes "
+        "a.0001.png, and films and JSON alike",
+        [&o](const std::string& v) { o.frames = parse_range("--frames", v); })
+        ->group(scene_group);
+    command.add_option("--fps", o.fps, "Frames in a second (default 24)")
+        ->check(number_within(1e-6, 1e6))
+        ->type_name("F")
+        ->group(scene_group);
+    command
+        .add_option("--point-size", o.point_size,
+                    "Width of the file's points and lines, in pixels of the picture (default 1.5)")
+        ->check(number_within(0.01, 1000))
+        ->type_name("PIXELS")
+        ->group(scene_group);
+}
+
+}  // namespace triad
