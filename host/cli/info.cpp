@@ -10,6 +10,7 @@
 #include "io/io.h"
 #include "report/report.h"
 #include "scene/scene.h"
+#include "session/check_outputs.h"
 
 namespace triad {
 namespace {
@@ -57,9 +58,10 @@ void print_list(const char* title, const std::vector<std::string>& names) {
     std::printf("\n");
 }
 
-Exit run(const std::string& path, int scene_index, const std::string& json) {
+Exit run(const std::string& path, int scene_index, bool strict, const std::string& json) {
     GltfReport report;
-    Scene scene = load_gltf(path, {scene_index}, &report);
+    Scene scene = load_gltf(path, {scene_index, strict}, &report);
+    refuse_to_replace({json}, report.files);
     const std::size_t dropped = validate(scene);
     if (dropped)
         report.warnings.push_back(std::to_string(dropped) +
@@ -131,6 +133,7 @@ void add_info(CLI::App& app, Exit& exit) {
     struct Options {
         std::string path, json;
         int scene = -1;
+        bool strict = false;
     };
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("info", "Show what is in a scene or a film, and its faults");
@@ -140,9 +143,12 @@ void add_info(CLI::App& app, Exit& exit) {
     command->add_option("--scene", o->scene, "Which scene of the file (default: the one it names)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N");
+    command->add_flag("--strict", o->strict,
+                      "Damaged data of the scene (images, normals and the like) are exit code 2");
     command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
     command->callback([o, &exit] {
-        exit = is_film(o->path) ? info_film(o->path, o->json) : run(o->path, o->scene, o->json);
+        check_outputs({o->json}, {o->path});
+        exit = is_film(o->path) ? info_film(o->path, o->json) : run(o->path, o->scene, o->strict, o->json);
     });
 }
 

@@ -33,7 +33,7 @@ std::array<std::size_t, 3> colour_channels(const std::string& name,
 
 }  // namespace
 
-EnvironmentMap load_environment(const std::filesystem::path& path) {
+EnvironmentMap load_environment(const std::filesystem::path& path, bool strict) {
     const std::string name = path.string();
     std::vector<std::uint8_t> bytes = read_file(path);
     const ImageFormat format = sniff(bytes);
@@ -63,9 +63,10 @@ EnvironmentMap load_environment(const std::filesystem::path& path) {
             repaired += bad;
         }
     });
-    if (repaired > 0)
-        warn("environment " + name + ": " + std::to_string(repaired) +
-             " texels are negative or not finite; those values are taken as 0");
+    const std::string fault = "environment " + name + ": " + std::to_string(repaired) +
+                              " texels are negative or not finite; those values are taken as 0";
+    if (repaired > 0 && strict) throw Error(Exit::scene, fault + " without --strict.");
+    if (repaired > 0) warn(fault);
     return map;
 }
 

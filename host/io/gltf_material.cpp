@@ -92,7 +92,7 @@ std::size_t Materials::use(int material) {
     return found->second;
 }
 
-std::size_t Materials::texture_with_sampler(int index, const std::string& what) {
+std::optional<std::size_t> Materials::texture_with_sampler(int index, const std::string& what) {
     const auto [found, is_new] = textures_.try_emplace(index, scene_.textures.size());
     if (!is_new) return found->second;
     const tinygltf::Texture& texture = file_.model.textures[std::size_t(index)];
@@ -102,9 +102,13 @@ std::size_t Materials::texture_with_sampler(int index, const std::string& what) 
     if (const Value* webp = find(texture.extensions, "EXT_texture_webp"); webp && webp->Has("source"))
         source = webp->Get("source").GetNumberAsInt();
     for (const char* other : {"KHR_texture_basisu", "MSFT_texture_dds"})
-        if (source < 0 && find(texture.extensions, other))
-            throw Error(Exit::unsupported, name + " needs " + other +
-                                               ", which is not supported; convert its image to PNG or JPEG.");
+        if (source < 0 && find(texture.extensions, other)) {
+            // only used, else the file had been refused: what is not understood is left out
+            file_.warn(name + " has an image for " + other +
+                       " alone, which is not supported; it is left out. Convert that image to PNG or JPEG.");
+            textures_.erase(found);
+            return std::nullopt;
+        }
     if (source < 0) throw Error(Exit::scene, name + " has no image.");
 
     const auto [image, new_image] = images_.try_emplace(source, scene_.images.size());
@@ -139,7 +143,9 @@ std::optional<TextureUse> Materials::texture(const char* member, int index, int 
         return std::nullopt;
     }
     use.uv_set = unsigned(uv_set);
-    use.texture = texture_with_sampler(index, what);
+    const std::optional<std::size_t> found = texture_with_sampler(index, what);
+    if (!found) return std::nullopt;
+    use.texture = *found;
     return use;
 }
 
@@ -229,6 +235,7 @@ Material Materials::convert(int index) {
 }
 
 void Materials::decode_images() {
+    std::vector<std::string> damage(scene_.images.size());
     parallel_for(scene_.images.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const ImageSource& source = file_.images[std::size_t(image_sources_[i])];
@@ -240,9 +247,13 @@ void Materials::decode_images() {
             if (const char* extension = unsupported_format(bytes))
                 throw Error(Exit::unsupported, source.name + " is of a format that needs " + extension +
                                                    ", which is not supported; convert it to PNG or JPEG.");
-            scene_.images[i] = decode_image(source.name, bytes);
+            scene_.images[i] = decode_image(source.name, bytes, &damage[i]);
         }
     });
+    for (std::size_t i = 0; i < damage.size(); ++i)
+        if (!damage[i].empty())
+            file_.fault("Image " + scene_.images[i].name + " is damaged (" + damage[i] +
+                        "); what could be decoded of it is used.");
 }
 
 }  // namespace triad::gltf

@@ -2,6 +2,7 @@
 /// Materials, textures and images, converted when a drawn primitive first uses them.
 #include <cstddef>
 #include <map>
+#include <optional>
 
 #include "io/gltf_file.h"
 
@@ -23,7 +24,8 @@ class Materials {
     Material convert(int material);
     std::optional<TextureUse> texture(const char* member, int index, int uv_set,
                                       const tinygltf::ExtensionMap& extensions, const std::string& what);
-    std::size_t texture_with_sampler(int index, const std::string& what);
+    /// None: its image is of an extension that is not supported, which a warning says.
+    std::optional<std::size_t> texture_with_sampler(int index, const std::string& what);
 
     File& file_;
     Scene& scene_;

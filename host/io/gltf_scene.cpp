@@ -15,9 +15,6 @@ namespace {
 
 using tinygltf::Value;
 
-constexpr std::uint64_t bytes_per_instance =
-    1024;  // what an instance costs, in the scene and in what is built from it
-
 dmat4 translate_rotate_scale(const dvec3& t, const dquat& r, const dvec3& s) {
     const dmat3 m = glm::mat3_cast(r);
     return dmat4(dvec4(m[0] * s.x, 0.0), dvec4(m[1] * s.y, 0.0), dvec4(m[2] * s.z, 0.0), dvec4(t, 1.0));
@@ -131,7 +128,7 @@ class SceneBuilder {
     void place(const tinygltf::Node& node, std::size_t index, std::size_t mesh, const dmat4& to_world) {
         if (!is_invertible(to_world))
             return file_.warn(label("node", index, node.name) + " is scaled to nothing; it is left out.");
-        file_.charge(bytes_per_instance, label("node", index, node.name));
+        file_.charge_instances(1, label("node", index, node.name));
         scene_.instances.push_back(
             {node.name.empty() ? scene_.meshes[mesh].name : node.name, mesh, to_world});
     }
@@ -158,7 +155,7 @@ class SceneBuilder {
             rotations = read_vec4(file_, a, Integers::signed_normalised, what + ": ROTATION");
         if (const int a = accessor("SCALE"); a >= 0)
             scales = read_vec3(file_, a, Integers::none, what + ": SCALE");
-        file_.charge(count.value_or(0) * bytes_per_instance, what);
+        file_.charge(count.value_or(0) * sizeof(dmat4), what);
         std::vector<dmat4> result;
         for (std::size_t i = 0; i < count.value_or(0); ++i) {
             const vec4 r = rotations.empty() ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : rotations[i];
@@ -249,10 +246,24 @@ class SceneBuilder {
 
 namespace triad {
 
+namespace {
+
+void require_whole(const GltfReport& report) {
+    const std::size_t n = report.faults.size();
+    if (n == 0) return;
+    throw Error(Exit::scene,
+                report.faults.front() +
+                    (n == 1 ? "" : " There are " + std::to_string(n - 1) + " more such faults.") +
+                    " Without --strict it is rendered all the same.");
+}
+
+}  // namespace
+
 Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice, GltfReport* report) {
     try {
         gltf::File file = gltf::read_file(path);
         Scene scene = gltf::SceneBuilder(file).build(choice);
+        if (choice.strict) require_whole(file.report);
         if (report) *report = std::move(file.report);
         return scene;
     } catch (const Error& e) {

@@ -16,6 +16,7 @@
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
 #include "io/io.h"
+#include "session/check_outputs.h"
 #include "session/prepare.h"
 #include "trace/node_format.h"
 #include "trace/path_driver.h"
@@ -35,13 +36,11 @@ bool is_same_file(const std::string& a, const std::string& b) {
 /// Everything that can be wrong is found before the long part.
 RenderRequest checked(RenderRequest request) {
     complete(request);
+    check_outputs(request.outputs_named(), request.inputs_named());
     const std::string& film = request.film_path;
     if (std::filesystem::is_regular_file(film) && !is_same_file(film, request.resume_path))
         throw Error(Exit::usage, "The film " + film + " is there already: triad render --resume " + film +
                                      " goes on with it. Remove it, or name another one, to begin again.");
-    for (const std::string& path : request.outputs) check_writable(path);
-    for (const std::string& path : {request.film_path, request.json_path})
-        if (!path.empty()) check_writable(path);
     set_host_threads(request.threads);
     if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
     return request;
