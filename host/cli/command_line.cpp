@@ -61,6 +61,18 @@ CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& d
         ->type_name("NAME");
 }
 
+CLI::Option* add_max_texture(CLI::App& command, std::optional<unsigned>& texels) {
+    return add_parsed(
+        command, "--max-texture", "N|auto",
+        "Reduce larger images of the scene to N texels on their longer side (default auto: only "
+        "where they would not fit the memory)",
+        [&texels](const std::string& text) {
+            texels = number<unsigned>(text);
+            if (text != "auto" && (!texels || *texels < 1 || *texels > 65536))
+                bad("--max-texture", text, "auto, or texels from 1 to 65536");
+        });
+}
+
 namespace {
 
 /// Of the command and its own commands.

@@ -31,6 +31,8 @@ void add_bench(CLI::App& app, Exit& exit);
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);
 /// --driver.
 CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver);
+/// --max-texture; none: auto.
+CLI::Option* add_max_texture(CLI::App& command, std::optional<unsigned>& texels);
 /// Every subcommand, with what all have: -q, -v, --max-memory and --help.
 void add_commands(CLI::App& app, Exit& exit);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "base/log.h"
 #include "base/text.h"
@@ -58,9 +59,10 @@ void print_list(const char* title, const std::vector<std::string>& names) {
     std::printf("\n");
 }
 
-Exit run(const std::string& path, int scene_index, bool strict, const std::string& json) {
+Exit run(const std::string& path, int scene_index, bool strict, std::optional<unsigned> max_texture,
+         const std::string& json) {
     GltfReport report;
-    Scene scene = load_gltf(path, {scene_index, strict}, &report);
+    Scene scene = load_gltf(path, {scene_index, strict, max_texture}, &report);
     refuse_to_replace({json}, report.files);
     const std::size_t dropped = validate(scene);
     if (dropped)
@@ -134,6 +136,7 @@ void add_info(CLI::App& app, Exit& exit) {
         std::string path, json;
         int scene = -1;
         bool strict = false;
+        std::optional<unsigned> max_texture;
     };
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("info", "Show what is in a scene or a film, and its faults");
@@ -143,12 +146,14 @@ void add_info(CLI::App& app, Exit& exit) {
     command->add_option("--scene", o->scene, "Which scene of the file (default: the one it names)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N");
+    add_max_texture(*command, o->max_texture);
     command->add_flag("--strict", o->strict,
                       "Damaged data of the scene (images, normals and the like) are exit code 2");
     command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
     command->callback([o, &exit] {
         check_outputs({o->json}, {o->path});
-        exit = is_film(o->path) ? info_film(o->path, o->json) : run(o->path, o->scene, o->strict, o->json);
+        exit = is_film(o->path) ? info_film(o->path, o->json)
+                                : run(o->path, o->scene, o->strict, o->max_texture, o->json);
     });
 }
 

@@ -278,6 +278,7 @@ void declare(CLI::App& command, RenderRequest& o) {
         ->type_name("");
     command.add_flag("--strict", o.strict,
                      "Damaged data of the scene (images, normals and the like) end it with exit code 2");
+    add_max_texture(command, o.max_texture);
     declare_goals(command, o);
     declare_paths(command, o);
     declare_photons(command, o);

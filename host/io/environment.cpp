@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/memory_limit.h"
 #include "io/exr_header.h"
 #include "io/image_container.h"
 #include "io/io.h"
@@ -48,6 +50,7 @@ EnvironmentMap load_environment(const std::filesystem::path& path, bool strict) 
     const OIIO::ImageSpec& spec = input.spec();
     const auto rgb = colour_channels(name, spec.channelnames);
     EnvironmentMap map{unsigned(spec.width), unsigned(spec.height), {}};
+    require_memory(std::uint64_t(map.width) * map.height * 3 * sizeof(float), "Environment " + name);
     map.rgb.reserve(std::size_t(map.width) * map.height * 3);
     std::size_t repaired = 0;
     input.read_bands(OIIO::TypeDesc::FLOAT, [&](unsigned, unsigned rows, const std::uint8_t* values) {

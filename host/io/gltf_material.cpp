@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <string_view>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/parallel_for.h"
 #include "io/gltf_extras.h"
 
 namespace triad::gltf {
@@ -14,7 +12,10 @@ namespace {
 
 using tinygltf::Value;
 
-constexpr std::uint64_t image_cap = std::uint64_t(1) << 30;  // bytes of an encoded image
+/// Whether textures of this member hold colours, sRGB-encoded.
+bool is_colour(std::string_view member) {
+    return member == "baseColorTexture" || member == "emissiveTexture" || member == "specularColorTexture";
+}
 
 const Value* find(const tinygltf::ExtensionMap& extensions, const char* name) {
     const auto found = extensions.find(name);
@@ -67,17 +68,6 @@ std::array<float, 6> transform_of(const Value& extension) {
                  s = std::sin(rotation);
     return {float(c * scale.x),  float(s * scale.y), float(offset.x),
             float(-s * scale.x), float(c * scale.y), float(offset.y)};
-}
-
-/// The extension that an image format belongs to which cannot be decoded here, by the first bytes.
-const char* unsupported_format(Bytes bytes) {
-    const auto starts = [&](const char* magic) {
-        return bytes.size() >= std::strlen(magic) &&
-               std::memcmp(bytes.data(), magic, std::strlen(magic)) == 0;
-    };
-    if (starts("\xabKTX 20\xbb") || starts("\xabKTX 11\xbb")) return "KHR_texture_basisu";
-    if (starts("DDS ")) return "MSFT_texture_dds";
-    return nullptr;
 }
 
 }  // namespace
@@ -146,6 +136,7 @@ std::optional<TextureUse> Materials::texture(const char* member, int index, int 
     const std::optional<std::size_t> found = texture_with_sampler(index, what);
     if (!found) return std::nullopt;
     use.texture = *found;
+    if (is_colour(member)) colours_.insert(scene_.textures[*found].image);
     return use;
 }
 
@@ -232,28 +223,6 @@ Material Materials::convert(int index) {
         m.dispersion.reset();
     }
     return m;
-}
-
-void Materials::decode_images() {
-    std::vector<std::string> damage(scene_.images.size());
-    parallel_for(scene_.images.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const ImageSource& source = file_.images[std::size_t(image_sources_[i])];
-            std::vector<std::uint8_t> bytes;
-            if (source.path.empty())
-                bytes.assign(source.bytes.begin(), source.bytes.end());
-            else
-                bytes = triad::read_file(source.path, image_cap);
-            if (const char* extension = unsupported_format(bytes))
-                throw Error(Exit::unsupported, source.name + " is of a format that needs " + extension +
-                                                   ", which is not supported; convert it to PNG or JPEG.");
-            scene_.images[i] = decode_image(source.name, bytes, &damage[i]);
-        }
-    });
-    for (std::size_t i = 0; i < damage.size(); ++i)
-        if (!damage[i].empty())
-            file_.fault("Image " + scene_.images[i].name + " is damaged (" + damage[i] +
-                        "); what could be decoded of it is used.");
 }
 
 }  // namespace triad::gltf

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "io/gltf_file.h"
 
@@ -16,9 +17,10 @@ class Materials {
     /// The scene's index of this glTF material (-1: the default material).
     std::size_t use(int material);
 
-    /// Decodes every image in use, on all cores. Throws Error(scene) that names the image, Error(unsupported)
-    /// that names the extension of a format that is not read.
-    void decode_images();
+    /// Decodes every image in use, on all cores. `longer`: as GltfChoice::max_texture. Throws Error(scene)
+    /// that names the image, Error(unsupported) that names the extension of a format that is not read,
+    /// Error(memory) before anything is decoded that does not fit.
+    void decode_images(std::optional<unsigned> longer);
 
   private:
     Material convert(int material);
@@ -31,6 +33,7 @@ class Materials {
     Scene& scene_;
     std::map<int, std::size_t> materials_, textures_, images_;
     std::vector<int> image_sources_;  ///< of scene_.images
+    std::set<std::size_t> colours_;   ///< of scene_.images: those that hold colours
 };
 
 /// A member of an extension that check_document() found to be a number, or its default.

@@ -48,7 +48,7 @@ class SceneBuilder {
             scene_.name = scenes[std::size_t(chosen)].name;
             walk(scenes[std::size_t(chosen)].nodes);
         }
-        materials_.decode_images();
+        materials_.decode_images(choice.max_texture);
         if (const std::size_t dropped = validate(scene_))
             file_.warn(std::to_string(dropped) +
                        " triangles without area or with corners that are no numbers are left out.");

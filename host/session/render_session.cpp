@@ -73,9 +73,9 @@ std::string joined(const std::vector<Device>& devices, const Say& say) {
     return text;
 }
 
-Scene timed_scene(const RenderRequest& request, double& seconds) {
+Scene timed_scene(const RenderRequest& request, double& seconds, GltfReport& report) {
     const auto start = Clock::now();
-    Scene scene = load_scene(request);
+    Scene scene = load_scene(request, &report);
     seconds = since(start);
     return scene;
 }
@@ -122,7 +122,7 @@ std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const
 RenderSession::RenderSession(RenderRequest request)
     : request_(checked(std::move(request))),
       lock_(lock_of(request_)),
-      scene_(timed_scene(request_, load_seconds_)),
+      scene_(timed_scene(request_, load_seconds_, loaded_)),
       settings_(settings_of(request_, scene_)),
       devices_(open_devices(request_)),
       renderer_(std::make_unique<Renderer>(pointers(devices_), scene_, settings_)),
@@ -215,6 +215,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
     metadata["triad:scene_name"] = scene_name();
     metadata["triad:machine"] = machine_words();
+    if (loaded_.max_texture > 0) metadata["triad:max_texture"] = std::to_string(loaded_.max_texture);
     unsigned units = 0;
     for (const Device& device : devices_) units += device.info().compute_units;
     metadata["triad:compute_units"] = std::to_string(units);
