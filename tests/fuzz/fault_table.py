@@ -50,6 +50,8 @@ def got(path):
         return f"refused ({done.returncode})" if sentence else "NO SENTENCE", sentence
     if done.returncode != 0:
         return f"EXIT {done.returncode}", errors.strip().split("\n")[0]
+    if not scene and "is damaged" in errors:
+        return "told", errors.strip().removeprefix("triad: warning: ").split("\n")[0]
     faults = re.search(r"^faults +(\d+)\n( .*)?", out, re.M)
     if faults and int(faults[1]):
         return "told", (faults[2] or "").strip()
