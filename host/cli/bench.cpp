@@ -16,10 +16,6 @@ void add_bench(CLI::App& app, Exit& exit) {
     add_bench_features(*bench, exit);
     add_bench_kernels(*bench, exit);
     add_bench_subpixel(*bench, exit);
-    for (CLI::App* kind : bench->get_subcommands(nullptr)) {
-        add_common(*kind);
-        kind->set_help_flag("-h,--help", "Show this help");
-    }
     bench->require_subcommand(0, 1);
 }
 

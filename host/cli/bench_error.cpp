@@ -14,8 +14,10 @@
 #include "bench/error_experiment.h"
 #include "cli/command_line.h"
 #include "cli/experiment.h"
+#include "cli/option_kinds.h"
 #include "report/bench_tables.h"
 #include "report/error_report.h"
+#include "session/check_outputs.h"
 #include "session/prepare.h"
 #include "session/reference_store.h"
 
@@ -149,9 +151,13 @@ void write_bench(const ErrorBench& bench, const std::vector<SettingScore>& score
 }  // namespace
 
 Exit run_bench_error(const BenchErrorOptions& o) {
-    for (const std::string& path : {o.csv, o.json})
-        if (!path.empty()) check_writable(path);
-    if (!o.folder.empty()) fs::create_directories(o.folder);
+    std::vector<std::string> inputs = arguments_of(o.scenes);
+    inputs.insert(inputs.end(), {o.against, o.kernels});
+    check_outputs({o.csv, o.json}, inputs);
+    if (!o.folder.empty()) {
+        fs::create_directories(o.folder);
+        refuse_to_replace({o.folder + "/runs.csv", o.folder + "/report.json"}, inputs);
+    }
     const ErrorBench bench = measure(o);
     const std::vector<SettingScore> scores =
         o.baselines.empty() ? std::vector<SettingScore>{} : score_settings(bench, o.baselines);
@@ -219,8 +225,11 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
             "SCENES", o->scenes,
             "FILE, or \"NAME: FILE OPTIONS\" with options of triad render (default: the built-in scene)")
         ->type_name("");
-    command->add_option("--size", o->size, "Of the pictures, unless a scene says otherwise (default 256x256)")
-        ->type_name("WxH");
+    add_parsed(*command, "--size", "WxH", "Of the pictures, unless a scene says otherwise (default 256x256)",
+               [o](const std::string& v) {
+                   parse_size("--size", v);
+                   o->size = v;
+               });
     command->add_option("--spp", o->spp, "Samples per pixel of the last budget: 1, 2, 4 ... N (default 64)")
         ->check(CLI::Range(1, 1 << 24))
         ->type_name("N");

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "bench/feature_bench.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -50,6 +51,7 @@ Json to_json(const FeatureRun& r) {
 }
 
 Exit run(const BenchFeaturesOptions& o) {
+    check_outputs({o.json}, {o.kernels});
     const EmptyCaches caches;
     const InterruptGuard guard;
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);

@@ -5,6 +5,7 @@
 
 #include "bench/kernel_bench.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 
 namespace triad {
 namespace {
@@ -34,6 +35,7 @@ void print(const DeviceInfo& device, const KernelBenchPlan& plan, const std::vec
 }
 
 Exit run(BenchKernelsOptions o) {
+    check_outputs({o.json}, {o.kernels});
     o.plan.shapes.clear();
     for (const std::size_t local : o.local_sizes) o.plan.shapes.push_back({local, 1});
     if (o.run > 1) o.plan.shapes.push_back({1, o.run});

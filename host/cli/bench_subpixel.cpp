@@ -12,9 +12,10 @@
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
 #include "cli/experiment.h"
+#include "cli/option_kinds.h"
 #include "cli/suite.h"
 #include "report/subpixel_report.h"
-#include "session/output.h"
+#include "session/check_outputs.h"
 #include "session/panel_file.h"
 #include "session/prepare.h"
 
@@ -135,8 +136,10 @@ class Subjects {
 };
 
 Exit run(const SubpixelOptions& o) {
-    for (const std::string& path : {o.csv, o.json})
-        if (!path.empty()) check_writable(path);
+    std::vector<std::string> inputs = arguments_of(o.scenes);
+    inputs.insert(inputs.end(), o.panels.begin(), o.panels.end());
+    inputs.push_back(o.synthetic);
+    check_outputs({o.csv, o.json}, inputs);
     if (!o.folder.empty()) fs::create_directories(o.folder);
     SubpixelReport report{{displays_of(o), o.rays, o.repetitions, o.seed}, {}, command_words(), date_words()};
     Subjects subjects(o);
@@ -178,7 +181,7 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     command->add_option("--panel", o->panels, "The displays (default rgb)")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->type_name("LIST");
+        ->type_name("PANEL,...");
     command->add_option("--ppd", o->ppd, "Pixels per degree of each (default: the panel's, else 45)")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -192,7 +195,10 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     command->add_option("--repetitions", o->repetitions, "With other seeds (default 2)")
         ->check(CLI::Range(1, 100))
         ->type_name("N");
-    command->add_option("--size", o->size, "Of the pictures (default 96x64)")->type_name("WxH");
+    add_parsed(*command, "--size", "WxH", "Of the pictures (default 96x64)", [o](const std::string& v) {
+        parse_size("--size", v);
+        o->size = v;
+    });
     command->add_option("--samples", o->samples, "Of references, per pixel along each axis (default 6)")
         ->check(CLI::Range(3, 24))
         ->type_name("N");

@@ -14,6 +14,7 @@
 #include "cli/render_options.h"
 #include "io/io.h"
 #include "session/capture_pass.h"
+#include "session/check_outputs.h"
 
 namespace triad {
 namespace {
@@ -29,7 +30,7 @@ struct CaptureOptions {
 Exit run(const CaptureOptions& o) {
     RenderRequest request = o.request;
     if (!request.spp && !request.samples) request.spp = default_samples;
-    check_writable(o.output);
+    check_outputs({o.output}, request.inputs_named());
     request.film_path = o.output;  // so that no picture is asked for
     const Capture capture = capture_pass(std::move(request));
     write_capture(o.output, capture);

@@ -8,6 +8,7 @@
 #include "check/verdict.h"
 #include "cli/command_line.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 #include "trace/node_format.h"
 #include "trace/tune.h"
 
@@ -34,6 +35,7 @@ void print(const CheckResult& r) {
 }
 
 Exit run(const CheckOptions& o) {
+    check_outputs({o.json}, {o.kernels});
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     if (o.level == CheckLevel::tiny) {  // measures nothing: for simulators

@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/memory_limit.h"
 #include "bvh/bvh.h"
+#include "cli/option_kinds.h"
 #include "scene/limits.h"
 #include "trace/path_driver.h"
 
@@ -60,7 +61,24 @@ CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& d
         ->type_name("NAME");
 }
 
+CLI::Option* add_max_texture(CLI::App& command, std::optional<unsigned>& texels) {
+    return add_parsed(
+        command, "--max-texture", "N|auto",
+        "Reduce larger images of the scene to N texels on their longer side (default auto: only "
+        "where they would not fit the memory)",
+        [&texels](const std::string& text) {
+            texels = number<unsigned>(text);
+            if (text != "auto" && (!texels || *texels < 1 || *texels > 65536))
+                bad("--max-texture", text, "auto, or texels from 1 to 65536");
+        });
+}
+
+namespace {
+
+/// Of the command and its own commands.
 void add_common(CLI::App& command) {
+    for (CLI::App* sub : command.get_subcommands(nullptr))
+        if (!sub->get_name().empty()) add_common(*sub);  // the others are groups of options
     command.add_flag_callback(
         "-q,--quiet", [] { set_log_level(0); }, "Errors only");
     command.add_flag_callback(
@@ -71,6 +89,26 @@ void add_common(CLI::App& command) {
             [](const std::string& text) { set_memory_limit(parse_bytes("--max-memory", text)); },
             "Take no more than this on host and devices together, like 4G (default: half of the machine's)")
         ->type_name("SIZE");
+    command.set_help_flag("-h,--help", "Show this help");
+}
+
+}  // namespace
+
+void add_commands(CLI::App& app, Exit& exit) {
+    add_render(app, exit);
+    add_info(app, exit);
+    add_merge(app, exit);
+    add_resolve(app, exit);
+    add_compare(app, exit);
+    add_panel(app, exit);
+    add_devices(app, exit);
+    add_tune(app, exit);
+    add_check(app, exit);
+    add_bench(app, exit);
+    add_profile(app, exit);
+    add_capture(app, exit);
+    for (CLI::App* command : app.get_subcommands(nullptr)) add_common(*command);
+    refuse_empty_values(app);
 }
 
 CLI::Validator number_within(double lo, double hi) {
@@ -140,6 +178,13 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
     }
     if (numbers.size() != count) bad(option, value, std::to_string(count) + " numbers with commas between");
     return numbers;
+}
+
+std::array<unsigned, 4> parse_crop(const std::string& option, const std::string& value) {
+    const std::vector<double> n = parse_numbers(option, value, 4);
+    for (const double x : n)
+        if (x < 0 || x > 65536 || x != std::floor(x)) bad(option, value, "whole pixels");
+    return {unsigned(n[0]), unsigned(n[1]), unsigned(n[2]), unsigned(n[3])};
 }
 
 vec3 parse_colour(const std::string& option, const std::string& value) {

@@ -33,8 +33,10 @@ void add_capture(CLI::App& app, Exit& exit);
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);
 /// --driver.
 CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver);
-/// -q, -v and --max-memory.
-void add_common(CLI::App& command);
+/// --max-texture; none: auto.
+CLI::Option* add_max_texture(CLI::App& command, std::optional<unsigned>& texels);
+/// Every subcommand, with what all have: -q, -v, --max-memory and --help.
+void add_commands(CLI::App& app, Exit& exit);
 
 /// For options: a number from lo to hi. (CLI11's own ranges take "nan" for one within.)
 CLI::Validator number_within(double lo, double hi);
@@ -49,6 +51,8 @@ std::uint64_t parse_bytes(const std::string& option, const std::string& value);
 std::array<unsigned, 2> parse_share(const std::string& option, const std::string& value);
 /// Exactly `count` finite numbers with commas between.
 std::vector<double> parse_numbers(const std::string& option, const std::string& value, std::size_t count);
+/// "X,Y,W,H" in whole pixels, up to 65536 each.
+std::array<unsigned, 4> parse_crop(const std::string& option, const std::string& value);
 /// "#RRGGBB" in sRGB, returned linear.
 vec3 parse_colour(const std::string& option, const std::string& value);
 

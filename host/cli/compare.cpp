@@ -14,6 +14,7 @@
 #include "metric/flip.h"
 #include "metric/image_metrics.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 #include "session/metadata.h"
 #include "session/output.h"
 
@@ -115,11 +116,14 @@ Exit run_perceived(const CompareOptions& o) {
 }
 
 Exit run(const CompareOptions& o) {
+    for (const std::string& path : o.perceived.maps) check_error_map(path);
+    std::vector<std::string> outputs = o.perceived.maps;
+    outputs.push_back(o.json);
+    check_outputs(outputs, {o.picture, o.reference, o.perceived.panel});
     const auto& m = o.metrics;
     if (std::find(m.begin(), m.end(), "perceived") != m.end() || o.perceived.limit) return run_perceived(o);
     if (!o.perceived.panel.empty() || o.perceived.ppd || !o.perceived.eyes.empty())
         throw Error(Exit::usage, "--panel, --ppd and --eye go with --metric perceived.");
-    for (const std::string& path : o.perceived.maps) check_error_map(path);
     const Compared compared = read(o);
     const auto& [picture, reference] = compared.values;
     const bool coloured = !compared.display[0].rgb.empty() && !compared.display[1].rgb.empty();

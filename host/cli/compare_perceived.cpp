@@ -117,7 +117,10 @@ void declare_perceived(CLI::App& command, PerceivedOptions& o) {
         ->check(CLI::IsMember({"scielab", "sharp", "flip"}))
         ->type_name("LIST")
         ->group(group);
-    command.add_option("--max-perceived", o.limit, "Exit 7 above this")->type_name("X")->group(group);
+    command.add_option("--max-perceived", o.limit, "Exit 7 above this")
+        ->check(number_within(0, 1e30))
+        ->type_name("X")
+        ->group(group);
 }
 
 Json compare_perceived(const std::string& a, const std::string& b, const PerceivedOptions& o, bool print,
@@ -125,7 +128,6 @@ Json compare_perceived(const std::string& a, const std::string& b, const Perceiv
     if (o.panel.empty())
         throw Error(Exit::usage,
                     "--metric perceived: name the display with --panel (triad panel lists them).");
-    for (const std::string& path : o.maps) check_error_map(path);
     const Panel panel = panel_named(o.panel);
     const double ppd = o.ppd.value_or(panel.ppd.value_or(usual_ppd));
     Shown reference = open(a), picture = open(b);

@@ -8,6 +8,7 @@
 #include "cli/command_line.h"
 #include "device/device.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 #include "trace/node_format.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
@@ -68,6 +69,7 @@ void print(const DeviceList& list) {
 }
 
 Exit run(const std::string& json) {
+    check_outputs({json}, {});
     const DeviceList list = list_devices();
     Json rows = Json::array();
     const DeviceInfo* chosen = nullptr;

@@ -13,7 +13,6 @@ void check_error_map(const std::string& path) {
     const std::string extension = std::filesystem::path(path).extension().string();
     if (extension != ".exr" && extension != ".png")
         throw Error(Exit::usage, "--map " + path + ": the extension must be .exr or .png.");
-    check_writable(path);
 }
 
 void write_error_map(const std::string& path, unsigned width, unsigned height,

@@ -7,7 +7,7 @@
 
 namespace triad {
 
-/// Throws Error(usage) for a name that is neither .exr nor .png, or cannot be written.
+/// Throws Error(usage) for a name that is neither .exr nor .png.
 void check_error_map(const std::string& path);
 
 /// EXR: the error of every pixel, and `parts` as more channels; PNG: the error in false colours, from 0 to a

@@ -57,6 +57,13 @@ NamedOptions parse_scene(const std::string& text) {
     return parse_setting(text);
 }
 
+std::vector<std::string> arguments_of(const std::vector<std::string>& scenes) {
+    std::vector<std::string> all;
+    for (const std::string& text : scenes)
+        for (std::string& argument : parse_scene(text).arguments) all.push_back(std::move(argument));
+    return all;
+}
+
 NamedOptions parse_setting(const std::string& text) {
     const auto colon = text.find(':');
     if (text.starts_with("-") || colon == std::string::npos) {

@@ -23,6 +23,9 @@ struct NamedOptions {
 /// "FILE", "NAME: FILE OPTIONS" or "NAME: OPTIONS" (the built-in scene); the name of a file is its stem.
 NamedOptions parse_scene(const std::string& text);
 
+/// The arguments of all these scenes together: some name files that are read.
+std::vector<std::string> arguments_of(const std::vector<std::string>& scenes);
+
 /// "NAME: OPTIONS", or options alone, which are then the name too. Throws Error(usage) for an empty name.
 NamedOptions parse_setting(const std::string& text);
 

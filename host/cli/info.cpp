@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "base/log.h"
 #include "base/text.h"
@@ -12,6 +13,7 @@
 #include "io/io.h"
 #include "report/report.h"
 #include "scene/scene.h"
+#include "session/check_outputs.h"
 
 namespace triad {
 namespace {
@@ -53,11 +55,14 @@ Sizes sizes_of(const Scene& scene) {
     return s;
 }
 
-Exit run(const std::string& path, int scene_index, const std::string& json) {
+Exit run(const std::string& path, int scene_index, bool strict, std::optional<unsigned> max_texture,
+         const std::string& json) {
     const GltfContents contents = gltf_contents(path);
     if (json != "-") print(contents);
     GltfReport report;
-    Scene scene = load_gltf(path, {scene_index}, &report);
+    Scene scene =
+        load_gltf(path, {.scene = scene_index, .strict = strict, .max_texture = max_texture}, &report);
+    refuse_to_replace({json}, report.files);
     const std::size_t dropped = validate(scene);
     if (dropped)
         report.warnings.push_back(std::to_string(dropped) +
@@ -127,6 +132,8 @@ void add_info(CLI::App& app, Exit& exit) {
     struct Options {
         std::string path, json;
         int scene = -1;
+        bool strict = false;
+        std::optional<unsigned> max_texture;
     };
     auto o = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("info", "Show what is in a scene or a film, and its faults");
@@ -136,9 +143,14 @@ void add_info(CLI::App& app, Exit& exit) {
     command->add_option("--scene", o->scene, "Which scene of the file (default: the one it names)")
         ->check(CLI::NonNegativeNumber)
         ->type_name("N");
+    add_max_texture(*command, o->max_texture);
+    command->add_flag("--strict", o->strict,
+                      "Damaged data of the scene (images, normals and the like) are exit code 2");
     command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
     command->callback([o, &exit] {
-        exit = is_film(o->path) ? info_film(o->path, o->json) : run(o->path, o->scene, o->json);
+        check_outputs({o->json}, {o->path});
+        exit = is_film(o->path) ? info_film(o->path, o->json)
+                                : run(o->path, o->scene, o->strict, o->max_texture, o->json);
     });
 }
 

@@ -1,4 +1,6 @@
 // The only place that catches, prints and exits.
+#include <fcntl.h>
+
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -50,22 +52,7 @@ int run(int argc, char** argv) {
         "comparison failed,\n"
         "75 interrupted and saved. A first picture: triad render; your own: triad render SCENE.glb -o "
         "OUT.png");
-    add_render(app, exit);
-    add_info(app, exit);
-    add_merge(app, exit);
-    add_resolve(app, exit);
-    add_compare(app, exit);
-    add_panel(app, exit);
-    add_devices(app, exit);
-    add_tune(app, exit);
-    add_check(app, exit);
-    add_bench(app, exit);
-    add_profile(app, exit);
-    add_capture(app, exit);
-    for (CLI::App* command : app.get_subcommands(nullptr)) {
-        add_common(*command);
-        command->set_help_flag("-h,--help", "Show this help");
-    }
+    add_commands(app, exit);
     app.require_subcommand(0, 1);
     try {
         app.parse(argc, argv);
@@ -97,6 +84,20 @@ int run_and_tell(int argc, char** argv) {
     }
 }
 
+/// The exit code once all that was printed is out: what went to a full disk or a closed pipe was not done.
+int told(int exit) {
+    const bool is_out = !std::cout.flush().fail() && std::fflush(stdout) == 0 && !std::ferror(stdout);
+    if (is_out || exit != static_cast<int>(Exit::done)) return exit;
+    return complain(static_cast<int>(Exit::scene),
+                    "Standard output is closed or full, so that some of what was to be printed is lost.");
+}
+
+/// Where a standard stream is closed, a file that is opened would take its place and what is printed would go
+/// into it. Nothing can be written to what stands there now.
+void fill_standard_streams() {
+    for (int stream = 0; stream < 3; ++stream)
+        if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) != stream) std::abort();
+}
 /// What the loader calls before the initialisers of any library.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = heed_shell_limits;
 
@@ -104,11 +105,12 @@ int run_and_tell(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     libraries_have_started();
+    fill_standard_streams();
     survive_drivers(argc, argv);
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
     std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
     set_memory_limit(available_memory() / 2);
-    const int exit = run_and_tell(argc, argv);
+    const int exit = told(run_and_tell(argc, argv));
     if (!any_device_hangs()) return exit;
     std::cout.flush(), std::fflush(nullptr);
     std::_Exit(exit);  // its driver would wait for it

@@ -6,6 +6,7 @@
 #include "base/progress.h"
 #include "cli/command_line.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 #include "session/metadata.h"
 #include "session/output.h"
 
@@ -24,7 +25,7 @@ void require_film(const std::string& path) {
 }
 
 Exit run(const MergeOptions& o) {
-    check_writable(o.output);
+    check_outputs({o.output, o.json}, o.parts);
     for (const std::string& part : o.parts) require_film(part);
     const MergedFilm merged = merge_films({o.parts.begin(), o.parts.end()}, o.output);
     const Film& whole = merged.film;

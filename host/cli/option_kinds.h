@@ -39,4 +39,14 @@ CLI::Option* add_switch(CLI::App& command, const std::string& name, const std::s
     return add_choice<bool>(command, name, "on|off", help, {{"on", true}, {"off", false}}, value);
 }
 
+/// Every option and name of the command, and of its own commands, refuses an empty text: what a script's
+/// unset variable leaves would mean "none was given".
+inline void refuse_empty_values(CLI::App& command) {
+    CLI::Validator something(
+        [](std::string& text) { return text.empty() ? "a value is missing" : std::string(); }, "");
+    for (CLI::Option* option : command.get_options())
+        if (option->get_expected_max() > 0) option->transform(something);  // the first of its validators
+    for (CLI::App* sub : command.get_subcommands(nullptr)) refuse_empty_values(*sub);
+}
+
 }  // namespace triad

@@ -1,17 +1,19 @@
 // triad panel: displays, their taps, and what they look like through a magnifier.
-#include <cmath>
+#include <array>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "base/files.h"
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
+#include "cli/option_kinds.h"
 #include "panel/design.h"
 #include "panel/panel_json.h"
 #include "report/error_pictures.h"
 #include "report/panel_chart.h"
 #include "report/panel_report.h"
-#include "session/output.h"
+#include "session/check_outputs.h"
 #include "session/panel_file.h"
 
 namespace triad {
@@ -20,14 +22,16 @@ namespace {
 constexpr std::size_t most_samples = std::size_t(1) << 28;  // of a drawing
 
 struct PanelOptions {
-    std::string panel, bins = "3x3", filter = "triad", output, picture, crop, file, test, json;
+    std::string panel, filter = "triad", output, picture, file, test, json;
+    uvec2 bins{3, 3};
+    std::optional<std::array<unsigned, 4>> crop;
     std::optional<double> ppd;
     bool taps = false;
     unsigned zoom = 48;
 };
 
 TapTable taps_of(const PanelOptions& o, const Panel& panel, double ppd) {
-    const uvec2 bins = parse_size("--bins", o.bins);
+    const uvec2& bins = o.bins;
     if (o.filter == "displaced") {
         check_design(ppd, bins.x, bins.y);
         return displaced_box_taps(panel, bins.x, bins.y);
@@ -44,17 +48,14 @@ TapTable taps_of(const PanelOptions& o, const Panel& panel, double ppd) {
 RgbImage drives_of(const PanelOptions& o) {
     RgbImage whole = display_of(o.picture, read_picture(o.picture));
     if (whole.rgb.empty()) throw Error(Exit::scene, o.picture + " lacks R, G or B.");
-    if (o.crop.empty()) return whole;
-    const std::vector<double> c = parse_numbers("--crop", o.crop, 4);
-    for (const double v : c)
-        if (v < 0 || v != std::floor(v))
-            throw Error(Exit::usage, "--crop " + o.crop + ": whole numbers from 0 on are expected.");
-    if (c[0] + c[2] > whole.width || c[1] + c[3] > whole.height || c[2] < 1 || c[3] < 1)
-        throw Error(Exit::usage, "--crop " + o.crop + ": the picture has " + std::to_string(whole.width) +
-                                     "x" + std::to_string(whole.height) + " pixels.");
-    RgbImage part{unsigned(c[2]), unsigned(c[3]), {}};
+    if (!o.crop) return whole;
+    const auto& [left, top, width, height] = *o.crop;
+    if (left + width > whole.width || top + height > whole.height || width < 1 || height < 1)
+        throw Error(Exit::usage, "--crop: the picture has " + std::to_string(whole.width) + "x" +
+                                     std::to_string(whole.height) + " pixels.");
+    RgbImage part{width, height, {}};
     for (unsigned y = 0; y < part.height; ++y) {
-        const float* row = whole.rgb.data() + (std::size_t(c[1] + y) * whole.width + std::size_t(c[0])) * 3;
+        const float* row = whole.rgb.data() + (std::size_t(top + y) * whole.width + left) * 3;
         part.rgb.insert(part.rgb.end(), row, row + part.width * 3);
     }
     return part;
@@ -84,15 +85,14 @@ void draw_chart(const PanelOptions& o) {
 }
 
 void check_png(const std::string& option, const std::string& path) {
-    if (path.empty()) return;
-    if (!path.ends_with(".png"))
+    if (!path.empty() && !path.ends_with(".png"))
         throw Error(Exit::usage, option + " " + path + ": the extension must be .png.");
-    check_writable(path);
 }
 
 Exit run(const PanelOptions& o) {
     check_png("-o", o.output);
     check_png("--test", o.test);
+    check_outputs({o.output, o.test, o.file, o.json}, {o.panel, o.picture});
     if (!o.test.empty()) {
         draw_chart(o);
         if (o.panel.empty() && o.json.empty()) return Exit::done;
@@ -143,7 +143,8 @@ void add_panel(CLI::App& app, Exit& exit) {
                      "Pixels per degree that they are designed for (default: the panel's, else 45)")
         ->check(number_within(5, 1000))
         ->type_name("X");
-    command->add_option("--bins", o->bins, "Bins per pixel of the film (default 3x3)")->type_name("BXxBY");
+    add_parsed(*command, "--bins", "BXxBY", "Bins per pixel of the film (default 3x3)",
+               [o](const std::string& v) { o->bins = parse_size("--bins", v); });
     command
         ->add_option("--filter", o->filter,
                      "triad, separable, cross-colour, displaced or platt (default triad)")
@@ -153,7 +154,8 @@ void add_panel(CLI::App& app, Exit& exit) {
         ->add_option("-o,--output", o->output, "Draw the emitters, magnified: white, or the picture's drives")
         ->type_name("FILE.png");
     command->add_option("--picture", o->picture, "What the drawing's display shows")->type_name("FILE");
-    command->add_option("--crop", o->crop, "The part of the picture")->type_name("X,Y,W,H");
+    add_parsed(*command, "--crop", "X,Y,W,H", "The part of the picture",
+               [o](const std::string& v) { o->crop = parse_crop("--crop", v); });
     command->add_option("--zoom", o->zoom, "Of the drawing (default 48)")
         ->check(CLI::Range(1, 256))
         ->type_name("N");

@@ -16,6 +16,7 @@
 #include "cli/render_options.h"
 #include "report/profile_page.h"
 #include "report/profile_report.h"
+#include "session/check_outputs.h"
 #include "session/render_session.h"
 
 namespace triad {
@@ -54,8 +55,10 @@ void check(const ProfileOptions& o) {
                     "--device " + o.request.device +
                         ": a profile is of whole devices, one after the other: a number, cpu, gpu "
                         "or part of a name each, with commas between.");
-    for (const std::string& path : {o.json, o.trace})
-        if (!path.empty() && path != "-") check_writable(path);
+    std::vector<std::string> inputs = o.request.inputs_named();
+    inputs.push_back(o.against);
+    check_outputs({o.json, o.trace}, inputs);
+    if (!o.folder.empty()) refuse_to_replace({o.folder + "/index.html"}, inputs);
 }
 
 Json earlier(const std::string& path) {

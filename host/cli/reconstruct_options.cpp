@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "session/panel_file.h"
 
 namespace triad {
@@ -11,28 +12,26 @@ void declare(CLI::App& command, ReconstructRequest& o) {
     std::string names;
     for (const MethodWords& method : reconstruction_methods())
         names += (names.empty() ? "" : ", ") + method.name;
-    command
-        .add_option("--reconstruct", o.method,
-                    "How samples become pixels: " + names +
-                        " (default: triad with --panel, filter with --filter, else the mean of the bins)")
-        ->type_name("NAME")
+    add_parsed(command, "--reconstruct", "NAME",
+               "How samples become pixels: " + names +
+                   " (default: triad with --panel, filter with --filter, else the mean of the bins)",
+               [&o](const std::string& v) {
+                   method_named(v);
+                   o.method = v;
+               })
         ->group(group);
-    command
-        .add_option_function<std::string>(
-            "--bins",
-            [&o](const std::string& v) {
-                o.bins = parse_size("--bins", v);
-                if (std::max(o.bins->x, o.bins->y) > 16)
-                    throw Error(Exit::usage, "--bins " + v + ": at most 16x16.");
-            },
-            "Bins of the film per pixel (default: what the method has, else 1x1)")
-        ->type_name("BXxBY")
+    add_parsed(command, "--bins", "BXxBY",
+               "Bins of the film per pixel (default: what the method has, else 1x1)",
+               [&o](const std::string& v) {
+                   o.bins = parse_size("--bins", v);
+                   if (std::max(o.bins->x, o.bins->y) > 16)
+                       throw Error(Exit::usage, "--bins " + v + ": at most 16x16.");
+               })
         ->group(group);
-    command
-        .add_option_function<std::string>(
-            "--filter", [&o](const std::string& v) { o.filter = parse_filter(v); },
-            "box, tent, gaussian, mitchell, catmull-rom, lanczos or blackman-harris, and its width in pixels")
-        ->type_name("NAME[:WIDTH]")
+    add_parsed(
+        command, "--filter", "NAME[:WIDTH]",
+        "box, tent, gaussian, mitchell, catmull-rom, lanczos or blackman-harris, and its width in pixels",
+        [&o](const std::string& v) { o.filter = parse_filter(v); })
         ->group(group);
     command
         .add_option("--panel", o.panel,

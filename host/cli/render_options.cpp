@@ -108,13 +108,7 @@ void declare_picture(CLI::App& command, RenderRequest& o) {
                [&o](const std::string& v) { o.size = parse_size("--size", v); })
         ->group(view_group);
     add_parsed(command, "--crop", "X,Y,W,H", "Render this part of the picture only",
-               [&o](const std::string& v) {
-                   const auto n = parse_numbers("--crop", v, 4);
-                   for (double x : n)
-                       if (x < 0 || x > 65536 || x != std::floor(x))
-                           throw Error(Exit::usage, "--crop " + v + ": expected whole pixels.");
-                   o.crop = {unsigned(n[0]), unsigned(n[1]), unsigned(n[2]), unsigned(n[3])};
-               })
+               [&o](const std::string& v) { o.crop = parse_crop("--crop", v); })
         ->group(view_group);
     add_parsed(
         command, "--pixel", "X,Y",
@@ -277,6 +271,9 @@ void declare_machine(CLI::App& command, RenderRequest& o) {
 void declare_workload(CLI::App& command, RenderRequest& o) {
     command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
         ->type_name("");
+    command.add_flag("--strict", o.strict,
+                     "Damaged data of the scene (images, normals and the like) end it with exit code 2");
+    add_max_texture(command, o.max_texture);
     declare_goals(command, o);
     declare_paths(command, o);
     declare_photons(command, o);

@@ -3,8 +3,10 @@
 #include <memory>
 
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "cli/output_options.h"
 #include "cli/reconstruct_options.h"
+#include "session/check_outputs.h"
 #include "session/metadata.h"
 #include "session/output.h"
 
@@ -12,7 +14,7 @@ namespace triad {
 namespace {
 
 struct ResolveOptions {
-    std::string source, background, device;
+    std::string source, device;
     std::vector<std::string> outputs;
     OutputStyle style;
     ReconstructRequest reconstruct;
@@ -80,11 +82,8 @@ void resolve_image(ResolveOptions& o) {
 }
 
 Exit run(ResolveOptions o) {
-    for (const std::string& path : o.outputs) {
-        check_format(path);
-        check_writable(path);
-    }
-    if (!o.background.empty()) o.style.background = parse_colour("--background", o.background);
+    for (const std::string& path : o.outputs) check_format(path);
+    check_outputs(o.outputs, {o.source, o.reconstruct.panel});
     if (is_film(o.source))
         resolve_film(o);
     else
@@ -113,8 +112,8 @@ void add_resolve(CLI::App& app, Exit& exit) {
         ->group("Output");
     declare_style(*command, o->style);
     declare(*command, o->reconstruct);
-    command->add_option("--background", o->background, "Put this colour behind what is transparent")
-        ->type_name("#RRGGBB")
+    add_parsed(*command, "--background", "#RRGGBB", "Put this colour behind what is transparent",
+               [o](const std::string& v) { o->style.background = parse_colour("--background", v); })
         ->group("Output");
     command->add_option("--device", o->device, "Number, cpu, gpu, or part of a name (see triad devices)")
         ->type_name("SEL");

@@ -5,6 +5,7 @@
 
 #include "cli/command_line.h"
 #include "report/report.h"
+#include "session/check_outputs.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -16,6 +17,7 @@ struct TuneOptions {
 };
 
 Exit run(const TuneOptions& o) {
+    check_outputs({o.json}, {o.kernels});
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     const std::vector<TuneTiming> timings = tune(device);

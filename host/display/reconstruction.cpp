@@ -130,16 +130,10 @@ class Maker {
     /// Whether its drives are for a panel.
     bool known(const std::string& name) {
         if (r_.method.empty()) return false;
-        for (const MethodWords& m : reconstruction_methods()) {
-            const bool takes_number = m.name.ends_with(":N");
-            if (takes_number ? split(m.name).name != name : m.name != r_.method) continue;
-            if (m.needs_panel && !c_.panel)
-                refuse(r_.method, "it is made for a panel; name it with --panel (triad panel lists them).");
-            return m.needs_panel || name == "filter" || name == "subpixel3";
-        }
-        std::string names;
-        for (const MethodWords& m : reconstruction_methods()) names += (names.empty() ? "" : ", ") + m.name;
-        refuse(r_.method, "there is no such method. There are " + names + ".");
+        const MethodWords& m = method_named(r_.method);
+        if (m.needs_panel && !c_.panel)
+            refuse(r_.method, "it is made for a panel; name it with --panel (triad panel lists them).");
+        return m.needs_panel || name == "filter" || name == "subpixel3";
     }
 
     void set_bins(const uvec2& bins) {
@@ -256,6 +250,16 @@ const std::vector<MethodWords>& reconstruction_methods() {
         {"triad", "3 x 3 bins, tone-mapped one by one where rays suffice, optimal taps, bounded refinement",
          true}};
     return methods;
+}
+
+const MethodWords& method_named(const std::string& method) {
+    std::string names;
+    for (const MethodWords& m : reconstruction_methods()) {
+        const bool takes_number = m.name.ends_with(":N");
+        if (takes_number ? split(m.name).name == split(method).name : m.name == method) return m;
+        names += (names.empty() ? "" : ", ") + m.name;
+    }
+    refuse(method, "there is no such method. There are " + names + ".");
 }
 
 Reconstruction reconstruction_of(const ReconstructionChoice& choice) { return Maker(choice).make(); }

@@ -55,6 +55,9 @@ struct MethodWords {
 /// displaced, platt, platt:3, random3, random3:shared, triad.
 const std::vector<MethodWords>& reconstruction_methods();
 
+/// The one that a text like "pane:4" names. Throws Error(usage).
+const MethodWords& method_named(const std::string& method);
+
 /// Throws Error(usage) for a method that there is none of, that lacks its panel or its filter, or whose bins
 /// are others.
 Reconstruction reconstruction_of(const ReconstructionChoice& choice);

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/memory_limit.h"
 #include "io/exr_header.h"
 #include "io/image_container.h"
 #include "io/io.h"
@@ -33,7 +35,7 @@ std::array<std::size_t, 3> colour_channels(const std::string& name,
 
 }  // namespace
 
-EnvironmentMap load_environment(const std::filesystem::path& path) {
+EnvironmentMap load_environment(const std::filesystem::path& path, bool strict) {
     const std::string name = path.string();
     std::vector<std::uint8_t> bytes = read_file(path);
     const ImageFormat format = sniff(bytes);
@@ -48,6 +50,7 @@ EnvironmentMap load_environment(const std::filesystem::path& path) {
     const OIIO::ImageSpec& spec = input.spec();
     const auto rgb = colour_channels(name, spec.channelnames);
     EnvironmentMap map{unsigned(spec.width), unsigned(spec.height), {}};
+    require_memory(std::uint64_t(map.width) * map.height * 3 * sizeof(float), "Environment " + name);
     map.rgb.reserve(std::size_t(map.width) * map.height * 3);
     std::size_t repaired = 0;
     input.read_bands(OIIO::TypeDesc::FLOAT, [&](unsigned, unsigned rows, const std::uint8_t* values) {
@@ -63,9 +66,10 @@ EnvironmentMap load_environment(const std::filesystem::path& path) {
             repaired += bad;
         }
     });
-    if (repaired > 0)
-        warn("environment " + name + ": " + std::to_string(repaired) +
-             " texels are negative or not finite; those values are taken as 0");
+    const std::string fault = "environment " + name + ": " + std::to_string(repaired) +
+                              " texels are negative or not finite; those values are taken as 0";
+    if (repaired > 0 && strict) throw Error(Exit::scene, fault + " without --strict.");
+    if (repaired > 0) warn(fault);
     return map;
 }
 

@@ -18,6 +18,9 @@ using nlohmann::json;
 constexpr std::uint64_t file_cap = std::uint64_t(4) << 30;    // bytes of one file
 constexpr std::uint64_t total_cap = std::uint64_t(16) << 30;  // bytes of all files of a scene
 constexpr std::uint64_t free_budget = std::uint64_t(192) << 20;
+/// Beside one for each byte of the file, whose JSON or accessors name every place that something is at. More
+/// come of lists that many nodes share.
+constexpr std::uint64_t free_instances = 1 << 18;
 constexpr std::uint64_t budget_per_byte =
     64;  // an 8-bit index of a strip becomes three 32-bit ones; buffers may be shared
 
@@ -59,6 +62,13 @@ bool is_fallback(const json& buffer) {
     return false;
 }
 
+/// A file that the scene refers to.
+fs::path beside(File& file, const std::string& uri, const fs::path& folder, const std::string& what) {
+    const fs::path path = resolve_uri(uri, folder, what);
+    file.report.files.push_back(path.string());
+    return path;
+}
+
 void read_buffers(const json& document, const fs::path& folder, const Container& container, File& file) {
     const auto buffers = document.find("buffers");
     if (buffers == document.end()) return;
@@ -74,7 +84,7 @@ void read_buffers(const json& document, const fs::path& folder, const Container&
                 if (auto data = decode_data_uri(uri, what))
                     bytes = keep(file, std::move(*data));
                 else
-                    bytes = keep(file, triad::read_file(resolve_uri(uri, folder, what), file_cap));
+                    bytes = keep(file, triad::read_file(beside(file, uri, folder, what), file_cap));
             } catch (const Error&) {
                 if (!is_fallback(buffer)) throw;  // else an error only when used
             }
@@ -92,6 +102,7 @@ void read_buffers(const json& document, const fs::path& folder, const Container&
         file.buffers.push_back(bytes);
     }
     file.budget += total * budget_per_byte;
+    file.instances += total;
 }
 
 void check_views(const json& document) {
@@ -129,7 +140,7 @@ void find_images(const json& document, const fs::path& folder, File& file) {
             if (auto data = decode_data_uri(uri, source.name)) {
                 source.bytes = keep(file, std::move(*data));
             } else {
-                source.path = resolve_uri(uri, folder, source.name);
+                source.path = beside(file, uri, folder, source.name);
                 source.name += " (" + source.path.filename().string() + ")";
             }
         }
@@ -195,8 +206,11 @@ void strip(json& document) {
     }
 }
 
-void parse_model(const json& document, File& file) {
+/// tinygltf takes text alone, so that what was checked is written out and parsed once more; the first
+/// document is gone before the second one grows.
+void parse_model(json document, File& file) {
     const std::string text = document.dump();
+    document = nullptr;
     std::string error, warning;
     tinygltf::TinyGLTF parser;
     bool parsed = false;
@@ -223,6 +237,20 @@ std::string label(const char* kind, std::size_t index, const std::string& name) 
 void File::warn(const std::string& sentence) {
     auto& warnings = report.warnings;
     if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end()) warnings.push_back(sentence);
+}
+
+void File::fault(const std::string& sentence) {
+    auto& faults = report.faults;
+    if (std::find(faults.begin(), faults.end(), sentence) == faults.end()) faults.push_back(sentence);
+    warn(sentence);
+}
+
+void File::charge_instances(std::uint64_t count, const std::string& what) {
+    if (count > instances)
+        throw Error(Exit::scene, what + " is placed more often than a file of this size can justify (" +
+                                     std::to_string(count) + " times, " + std::to_string(instances) +
+                                     " left).");
+    instances -= count;
 }
 
 void File::charge(std::uint64_t bytes, const std::string& what) {
@@ -258,6 +286,7 @@ File read_file(const fs::path& path) {
     File file;
     file.storage.push_back(triad::read_file(path, file_cap));
     file.budget = free_budget;
+    file.instances = free_instances + file.storage.front().size();
     const Container container = split_container(file.storage.front());
     json document = parse_json(container.json);
     check_header(document);
@@ -272,7 +301,7 @@ File read_file(const fs::path& path) {
     json images = document.contains("images") ? std::move(document["images"]) : json();
     json model = std::move(document);
     strip(model);
-    parse_model(model, file);
+    parse_model(std::move(model), file);
     if (!images.is_null()) find_images(json{{"images", std::move(images)}}, path.parent_path(), file);
     file.report.nodes = file.model.nodes.size();
     file.report.scenes = file.model.scenes.size();

@@ -28,12 +28,17 @@ struct File {
     std::vector<ImageSource> images;
     bool quantised = false;  ///< KHR_mesh_quantization is declared
     GltfReport report;
-    std::uint64_t budget = 0;  ///< bytes that decoded geometry may still take
+    std::uint64_t budget = 0;     ///< bytes that decoded geometry may still take
+    std::uint64_t instances = 0;  ///< that nodes may still place
 
     /// One line, once.
     void warn(const std::string& sentence);
+    /// The same, of damaged data (GltfReport::faults).
+    void fault(const std::string& sentence);
     /// Takes `bytes` from the budget. Throws Error(scene) that names `what` when it is spent.
     void charge(std::uint64_t bytes, const std::string& what);
+    /// Sees that `count` more may be placed, and takes them where that is so. Throws Error(scene).
+    void charge_instances(std::uint64_t count, const std::string& what);
     /// The bytes of a buffer view. Throws Error(scene) that names `what`.
     Bytes view(int buffer_view, const std::string& what) const;
 

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <string_view>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "base/parallel_for.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_specular_glossiness.h"
 
@@ -15,7 +14,10 @@ namespace {
 
 using tinygltf::Value;
 
-constexpr std::uint64_t image_cap = std::uint64_t(1) << 30;  // bytes of an encoded image
+/// Whether textures of this member hold colours, sRGB-encoded.
+bool is_colour(std::string_view member) {
+    return member == "baseColorTexture" || member == "emissiveTexture" || member == "specularColorTexture";
+}
 
 const Value* find(const tinygltf::ExtensionMap& extensions, const char* name) {
     const auto found = extensions.find(name);
@@ -171,6 +173,7 @@ std::optional<TextureUse> Materials::texture(const char* member, int index, int 
     const std::optional<std::size_t> converted = texture_with_sampler(index, what, glossiness);
     if (!converted) return std::nullopt;
     use.texture = *converted;
+    if (is_colour(member) && !glossiness) colours_.insert(scene_.textures[*converted].image);
     return use;
 }
 
@@ -280,22 +283,6 @@ Material Materials::convert(int index) {
         m.dispersion.reset();
     }
     return m;
-}
-
-void Materials::decode_images() {
-    parallel_for(scene_.images.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto& [index, glossiness] = image_sources_[i];
-            const ImageSource& source = file_.images[std::size_t(index)];
-            std::vector<std::uint8_t> bytes;
-            if (source.path.empty())
-                bytes.assign(source.bytes.begin(), source.bytes.end());
-            else
-                bytes = triad::read_file(source.path, image_cap);
-            scene_.images[i] = decode_image(source.name, bytes);
-            if (glossiness) make_roughness(scene_.images[i], *glossiness);
-        }
-    });
 }
 
 }  // namespace triad::gltf

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,8 +24,9 @@ class Materials {
     /// base colour and emission. Normal maps are left out.
     std::size_t use_for_strokes(int material, bool has_normals);
 
-    /// Decodes every image in use, on all cores. Throws Error(scene) that names the image.
-    void decode_images();
+    /// Decodes every image in use, on all cores. `longer`: as GltfChoice::max_texture. Throws Error(scene)
+    /// that names the image, Error(memory) before anything is decoded that does not fit.
+    void decode_images(std::optional<unsigned> longer);
 
   private:
     Material convert(int material);
@@ -48,6 +50,7 @@ class Materials {
     std::map<Derived, std::size_t> textures_, images_;
     std::map<std::pair<int, bool>, std::size_t> of_strokes_;
     std::vector<Derived> image_sources_;  ///< of scene_.images
+    std::set<std::size_t> colours_;       ///< of scene_.images: those that hold colours
 };
 
 /// A member of an extension that check_document() found to be a number, or its default.

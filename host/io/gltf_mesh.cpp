@@ -12,8 +12,6 @@
 namespace triad::gltf {
 namespace {
 
-bool is_finite(float x) { return std::isfinite(x); }
-
 /// Corners of the triangles that a list, strip or fan of indices means (glTF 2.0, 3.7.2.1).
 std::vector<uvec3> triangles_of(const std::vector<std::uint32_t>& indices, int mode) {
     std::vector<uvec3> triangles;
@@ -46,17 +44,36 @@ std::vector<uvec2> strokes_of(const std::vector<std::uint32_t>& indices, int mod
     return strokes;
 }
 
+template <class Vector>
+bool is_finite(const Vector& v) {
+    for (int k = 0; k < Vector::length(); ++k)
+        if (!std::isfinite(v[k])) return false;
+    return true;
+}
+
+/// How many have a component that is no number or infinite.
+template <class Vector>
+std::size_t not_finite(const std::vector<Vector>& all) {
+    return std::size_t(std::count_if(all.begin(), all.end(), [](const Vector& v) { return !is_finite(v); }));
+}
+
 /// Unit normals; a normal without length or with a NaN becomes that of the triangles around its vertex.
-void normalise(std::vector<vec3>& normals, const Primitive& primitive) {
-    const auto is_good = [](const vec3& n) { return glm::dot(n, n) > 1e-12f && is_finite(glm::dot(n, n)); };
+/// Returns how many have no length.
+std::size_t normalise(std::vector<vec3>& normals, const Primitive& primitive) {
+    const auto is_good = [](const vec3& n) {
+        return glm::dot(n, n) > 1e-12f && std::isfinite(glm::dot(n, n));
+    };
     bool all_good = true;
+    std::size_t without_length = 0;
     for (vec3& n : normals) {
-        if (is_good(n))
+        if (is_good(n)) {
             n = glm::normalize(n);
-        else
-            n = vec3(0.0f), all_good = false;
+            continue;
+        }
+        without_length += is_finite(n);
+        n = vec3(0.0f), all_good = false;
     }
-    if (all_good) return;
+    if (all_good) return 0;
     std::vector<dvec3> around(normals.size(), dvec3(0.0));
     for (const uvec3& t : primitive.triangles) {
         const dvec3 a = primitive.positions[t.x], b = primitive.positions[t.y], c = primitive.positions[t.z];
@@ -69,13 +86,14 @@ void normalise(std::vector<vec3>& normals, const Primitive& primitive) {
         normals[i] =
             length > 0.0 && std::isfinite(length) ? vec3(around[i] / length) : vec3(0.0f, 0.0f, 1.0f);
     }
+    return without_length;
 }
 
 /// Unit tangents with a sign; false when one of them has no direction.
 bool normalise(std::vector<vec4>& tangents) {
     for (vec4& t : tangents) {
         const float length = glm::length(vec3(t));
-        if (!(length > 1e-6f) || !is_finite(length)) return false;
+        if (!(length > 1e-6f) || !std::isfinite(length)) return false;
         t = vec4(vec3(t) / length, t.w < 0.0f ? -1.0f : 1.0f);
     }
     return true;
@@ -129,8 +147,17 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
                                          std::to_string(file_.model.accessors[std::size_t(accessor)].count) +
                                          " elements but POSITION has " + std::to_string(count) + ".");
 
+    const auto tell = [&](std::size_t faulty, const char* name, const char* fault, const char* instead) {
+        if (faulty > 0)
+            file_.fault(what + ": " + name + " (accessor " + std::to_string(attribute(name)) + ") has " +
+                        std::to_string(faulty) + " of " + std::to_string(count) + " elements " + fault +
+                        "; " + instead + ".");
+    };
+    const char* const no_numbers = "that are no finite numbers";
+
     Primitive p;
     p.positions = read_vec3(file_, positions, Integers::quantised, what + ": POSITION");
+    tell(not_finite(p.positions), "POSITION", no_numbers, "triangles at them are left out");
     if (count >= 0xffffffffu) throw Error(Exit::scene, what + " has too many vertices.");
 
     std::vector<std::uint32_t> indices;
@@ -160,10 +187,20 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
     p.material = is_surface ? materials_.use(material)
                             : materials_.use_for_strokes(material, attribute("NORMAL") >= 0);
     const std::optional<TextureUse> normal_map = scene_.materials[p.material].normal_texture;
-    if (const int normals = attribute("NORMAL"); normals >= 0)
+    if (const int normals = attribute("NORMAL"); normals >= 0) {
         p.normals = read_vec3(file_, normals, Integers::quantised, what + ": NORMAL");
-    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map)
+        tell(not_finite(p.normals), "NORMAL", no_numbers, "they become those of the triangles around");
+        tell(normalise(p.normals, p), "NORMAL", "without length",
+             "they become those of the triangles around");
+    }
+    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map) {
         p.tangents = read_vec4(file_, tangents, Integers::quantised, what + ": TANGENT");
+        if (!normalise(p.tangents)) {
+            file_.fault(what + ": TANGENT (accessor " + std::to_string(tangents) +
+                        ") has elements without direction; all are computed anew.");
+            p.tangents.clear();
+        }
+    }
     for (const auto& [name, accessor] : source.attributes)
         if (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1")
             file_.warn(what + " has the attribute " + name.substr(0, 40) +
@@ -174,8 +211,9 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
         if (accessor < 0) continue;
         const Integers integers = file_.quantised ? Integers::quantised : Integers::normalised;
         p.uvs[set] = read_vec2(file_, accessor, integers, what + ": " + name);
+        tell(not_finite(p.uvs[set]), name.c_str(), no_numbers, "they become 0");
         for (vec2& uv : p.uvs[set])
-            if (!is_finite(uv.x) || !is_finite(uv.y)) uv = vec2(0.0f);
+            if (!is_finite(uv)) uv = vec2(0.0f);
     }
     if (const int colours = attribute("COLOR_0"); colours >= 0) {
         if (file_.model.accessors[std::size_t(colours)].type == TINYGLTF_TYPE_VEC3) {
@@ -184,6 +222,7 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
         } else {
             p.colours = read_vec4(file_, colours, Integers::normalised, what + ": COLOR_0");
         }
+        tell(not_finite(p.colours), "COLOR_0", no_numbers, "they become 0 or 1");
         for (vec4& c : p.colours)
             for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
     }

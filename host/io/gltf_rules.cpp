@@ -126,7 +126,7 @@ const Rule document[] = {
     {"cameras", Kind::objects},
     {"cameras[].type", Kind::text, "", required},
     {"cameras[].perspective", Kind::object},
-    {"cameras[].perspective.yfov", Kind::number, "", required, 1e-6, 3.1415},
+    {"cameras[].perspective.yfov", Kind::number, "", required, 1e-6, 3.1415926},
     {"cameras[].perspective.aspectRatio", Kind::number, "", false, 1e-6, 1e6},
     {"cameras[].perspective.znear", Kind::number, "", required, 0},
     {"cameras[].perspective.zfar", Kind::number, "", false, 0},

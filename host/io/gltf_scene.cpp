@@ -20,9 +20,6 @@ namespace {
 
 using tinygltf::Value;
 
-constexpr std::uint64_t bytes_per_instance =
-    1024;  // what an instance costs, in the scene and in what is built from it
-
 class SceneBuilder {
   public:
     SceneBuilder(File& file, const GltfChoice& choice)
@@ -43,7 +40,7 @@ class SceneBuilder {
             scene_.name = scenes[std::size_t(chosen)].name;
             walk(scenes[std::size_t(chosen)].nodes);
         }
-        materials_.decode_images();
+        materials_.decode_images(choice_.max_texture);
         if (const std::size_t dropped = validate(scene_))
             file_.warn(std::to_string(dropped) +
                        " triangles without area or with corners that are no numbers are left out.");
@@ -97,11 +94,11 @@ class SceneBuilder {
         const std::string& name = node.name.empty() ? scene_.meshes[mesh].name : node.name;
         const Value* extension = extension_of(node, "EXT_mesh_gpu_instancing");
         if (!extension) {
-            file_.charge(bytes_per_instance, what);
+            file_.charge_instances(1, what);
             return place({name, mesh, to_world}, what);
         }
         const Instancing instancing(file_, *extension, what);
-        file_.charge(instancing.size() * sizeof(MeshInstance), what);
+        file_.charge_instances(instancing.size(), what);
         scene_.instances.reserve(scene_.instances.size() + instancing.size());
         for (std::size_t i = 0; i < instancing.size(); ++i)
             place({name, mesh, to_world * instancing.transform(i)}, what);
@@ -196,10 +193,24 @@ class SceneBuilder {
 
 namespace triad {
 
+namespace {
+
+void require_whole(const GltfReport& report) {
+    const std::size_t n = report.faults.size();
+    if (n == 0) return;
+    throw Error(Exit::scene,
+                report.faults.front() +
+                    (n == 1 ? "" : " There are " + std::to_string(n - 1) + " more such faults.") +
+                    " Without --strict it is rendered all the same.");
+}
+
+}  // namespace
+
 Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice, GltfReport* report) {
     try {
         gltf::File file = gltf::read_file(path);
         Scene scene = gltf::SceneBuilder(file, choice).build();
+        if (choice.strict) require_whole(file.report);
         if (report) *report = std::move(file.report);
         return scene;
     } catch (const Error& e) {

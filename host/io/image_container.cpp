@@ -98,7 +98,10 @@ CleanImage clean_jpeg(const std::string& name, Span b) {
     std::uint64_t scans = 0;
     for (std::size_t at = 2;;) {
         while (at + 1 < b.size() && b[at] == 0xff && b[at + 1] == 0xff) ++at;  // fill bytes
-        if (b.size() - at < 2) break;
+        if (b.size() - at < 2) {
+            clean.ends_early = true;
+            break;
+        }
         if (b[at] != 0xff) refuse(name, "the JPEG has no marker where one is due");
         const unsigned marker = b[at + 1];
         if (marker == 0xd9) break;

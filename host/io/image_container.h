@@ -23,6 +23,7 @@ struct CleanImage {
     ImageFormat format = ImageFormat::unknown;
     unsigned width = 0, height = 0;
     std::vector<std::uint8_t> bytes;
+    bool ends_early = false;                   ///< a JPEG without its end marker
     std::map<std::string, std::string> notes;  ///< Triad's own text ("triad:...") of PNG and JPEG, short ones
 };
 

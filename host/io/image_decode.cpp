@@ -40,7 +40,7 @@ void restore_webp_colours(Image& image, const std::vector<std::uint8_t>& bytes) 
 
 }  // namespace
 
-Image decode_image(const std::string& name, const std::vector<std::uint8_t>& bytes) {
+Image decode_image(const std::string& name, const std::vector<std::uint8_t>& bytes, std::string* damage) {
     const CleanImage clean = clean_image(name, bytes);
     const char* format = clean.format == ImageFormat::png    ? "png"
                          : clean.format == ImageFormat::jpeg ? "jpeg"
@@ -66,6 +66,10 @@ Image decode_image(const std::string& name, const std::vector<std::uint8_t>& byt
             expand(values, unsigned(spec.nchannels), pixels, to);
         }
     });
+    if (damage) {
+        *damage = input.complaint();
+        if (damage->empty() && clean.ends_early) *damage = "it ends before its end marker";
+    }
     if (clean.format == ImageFormat::webp && spec.nchannels == 4) restore_webp_colours(image, bytes);
     return image;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,13 +17,20 @@ struct GltfChoice {
     std::string variant;  ///< KHR_materials_variants, by name; empty: every primitive's own material
     /// By name or index; "none": nodes as they are; empty: the first that there is.
     std::string animation;
-    double time = 0;  ///< seconds: where in the animation
+    double time = 0;      ///< seconds: where in the animation
+    bool strict = false;  ///< damaged data are an Error(scene), where else they are mended with a warning
+    /// Larger images are reduced to so many texels on their longer side; 0: none is; none: all alike as far
+    /// as the memory limit demands.
+    std::optional<unsigned> max_texture = 0;
 };
 
 /// What a file contained beside the scene, for `triad info` and for warnings.
 struct GltfReport {
     std::vector<std::string> extensions_used, extensions_required, warnings;
     std::size_t nodes = 0, scenes = 0;
+    std::vector<std::string> faults;  ///< those of the warnings that are of damaged data
+    std::vector<std::string> files;   ///< that it refers to: buffers and images
+    unsigned max_texture = 0;         ///< to which images were reduced; 0: none was
 };
 
 /// Reads .gltf or .glb, following the hard rules for untrusted files. Throws Error(scene) that names the
@@ -31,12 +39,14 @@ struct GltfReport {
 Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice = {},
                 GltfReport* report = nullptr);
 
-/// .hdr or .exr, lat-long. Throws Error(scene).
-EnvironmentMap load_environment(const std::filesystem::path& path);
+/// .hdr or .exr, lat-long. Texels that are no radiance become 0 with a warning; `strict`: are an error.
+/// Throws Error(scene).
+EnvironmentMap load_environment(const std::filesystem::path& path, bool strict = false);
 
 /// Decodes PNG, JPEG or WebP bytes to RGBA (colour profiles ignored, alpha unassociated). `name` is for
-/// messages. Throws Error(scene).
-Image decode_image(const std::string& name, const std::vector<std::uint8_t>& bytes);
+/// messages. What a decoder passed over goes to `damage`: half a sentence. Throws Error(scene).
+Image decode_image(const std::string& name, const std::vector<std::uint8_t>& bytes,
+                   std::string* damage = nullptr);
 
 /// A named float channel plane of a picture, row-major.
 struct Channel {

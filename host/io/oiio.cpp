@@ -40,6 +40,15 @@ Input::Input(const std::string& name, const char* format, std::span<const std::u
         fail("it has no flat picture");
 }
 
+std::string Input::complaint() {
+    // libjpeg goes on after what it calls warnings: OpenImageIO keeps the last of them and reports success.
+    std::string text = input_->geterror();
+    if (text.empty()) return text;
+    text = first_line(text);
+    if (const std::size_t name = text.find(" (\""); name != std::string::npos) text.resize(name);
+    return text;
+}
+
 void Input::read_bands(OIIO::TypeDesc type,
                        const std::function<void(unsigned, unsigned, const std::uint8_t*)>& take) {
     const std::size_t row = std::size_t(spec_.width) * spec_.nchannels * type.size();

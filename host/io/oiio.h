@@ -28,6 +28,9 @@ class Input {
     void read_bands(OIIO::TypeDesc type,
                     const std::function<void(unsigned, unsigned, const std::uint8_t*)>& take);
 
+    /// What the decoder passed over while it read, in its words; empty: nothing. Once.
+    std::string complaint();
+
   private:
     [[noreturn]] void fail(const std::string& what);
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/log.h"
 #include "io/exr_header.h"
 #include "io/image_container.h"
 #include "io/io.h"
@@ -27,6 +28,8 @@ Picture read_channels(const std::string& name, const char* format, std::span<con
                 picture.channels[c].values.push_back(v);
             }
     });
+    if (const std::string damage = input.complaint(); !damage.empty())
+        warn("Image " + name + " is damaged (" + damage + "); what could be decoded of it is used.");
     return picture;
 }
 

@@ -1,12 +1,7 @@
 #include "session/output.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iterator>
@@ -98,23 +93,6 @@ void check_format_for(const Reconstruction& method, const std::vector<std::strin
                         "-o " + path +
                             ": .hdr files cannot say which panel they were made for, and on others "
                             "they are wrong. Give .exr or .png, or leave --panel out.");
-}
-
-void check_writable(const std::string& path) {
-    if (path == "-") return;
-    remove_leftovers(path, false);
-    if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path + ": it is a folder.");
-    // What writing will do: make a file beside it. Only the attempt tells; access rights are not the whole
-    // story.
-    const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-    if (!fs::is_directory(folder))
-        throw Error(Exit::scene, "Cannot write " + path + ": there is no folder " + folder.string() + ".");
-    if (fs::exists(path) && !fs::is_regular_file(path)) return;  // a device or pipe is written to directly
-    const fs::path probe = folder / (".triad-probe" + fs::path(path).filename().string());
-    const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
-    if (file < 0) throw Error(Exit::scene, "Cannot write " + path + ": " + std::strerror(errno) + ".");
-    ::close(file);
-    fs::remove(probe);
 }
 
 DisplaySettings display_settings(const OutputStyle& style, bool alpha) {

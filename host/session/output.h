@@ -30,9 +30,6 @@ bool is_linear(const std::string& path);
 void check_format(const std::string& path);
 /// What only files that can say so may hold: Throws Error(usage) for drives of a panel in a .hdr file.
 void check_format_for(const Reconstruction& method, const std::vector<std::string>& paths);
-/// Throws Error(scene) when no file can be made at `path`: to be asked before a long render, not after.
-void check_writable(const std::string& path);
-
 /// The part of the way to pixels that the style decides.
 DisplaySettings display_settings(const OutputStyle& style, bool alpha);
 

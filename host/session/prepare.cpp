@@ -13,6 +13,7 @@
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "scene/strokes.h"
+#include "session/check_outputs.h"
 #include "session/choose_view.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
@@ -57,7 +58,7 @@ void apply_glass(Scene& scene, const std::string& text) {
                                      material_names(scene) + ".");
 }
 
-Scene load_scene(const RenderRequest& o) {
+Scene load_scene(const RenderRequest& o, GltfReport* told) {
     Scene scene;
     if (o.scene_path.empty()) {
         if (!o.variant.empty() || !o.animation.empty() || o.pose_time != 0)
@@ -67,11 +68,20 @@ Scene load_scene(const RenderRequest& o) {
         scene = builtin_scene();
     } else {
         GltfReport report;
-        scene = load_gltf(o.scene_path, {o.scene_index, o.variant, o.animation, o.pose_time}, &report);
+        scene = load_gltf(o.scene_path,
+                          {.scene = o.scene_index,
+                           .variant = o.variant,
+                           .animation = o.animation,
+                           .time = o.pose_time,
+                           .strict = o.strict,
+                           .max_texture = o.max_texture},
+                          &report);
+        refuse_to_replace(o.outputs_named(), report.files);
         for (const std::string& warning : report.warnings) warn(warning);
+        if (told) *told = std::move(report);
     }
     for (const std::string& text : o.glass) apply_glass(scene, text);
-    if (!o.env_path.empty()) scene.environment = load_environment(o.env_path);
+    if (!o.env_path.empty()) scene.environment = load_environment(o.env_path, o.strict);
     if (const std::size_t dropped = validate(scene))
         detail(std::to_string(dropped) + " triangles have no area or no finite corners and are left out");
     if (has_strokes(scene)) {

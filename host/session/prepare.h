@@ -11,8 +11,9 @@
 namespace triad {
 
 /// The scene with its light: environment of the command line, or a plain sky where nothing gives light.
-/// Warnings are logged. Throws Error(scene), Error(unsupported).
-Scene load_scene(const RenderRequest& options);
+/// Warnings are logged; `report` gets them, too. Throws Error(scene), Error(unsupported), Error(usage) when
+/// an output would replace a file of the scene.
+Scene load_scene(const RenderRequest& options, GltfReport* report = nullptr);
 
 /// "MATERIAL=NAME": every material of that name becomes that glass. Throws Error(usage).
 void apply_glass(Scene& scene, const std::string& text);

@@ -16,6 +16,17 @@ RenderGoal RenderRequest::goal() const {
             .adaptive = adaptive.value_or(ends_itself)};
 }
 
+std::vector<std::string> RenderRequest::outputs_named() const {
+    std::vector<std::string> all = outputs;
+    all.insert(all.end(), {film_path, json_path});
+    return all;
+}
+
+std::vector<std::string> RenderRequest::inputs_named() const {
+    const bool goes_on = film_path == resume_path;  // that film is to be replaced
+    return {scene_path, env_path, reconstruct.panel, kernels_path, goes_on ? "" : resume_path};
+}
+
 void complete(RenderRequest& o) {
     if (o.frames && (o.pixel || o.pose_time != 0))
         throw Error(
@@ -51,8 +62,6 @@ void complete(RenderRequest& o) {
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && !o.profile && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);
-    if (std::count(o.outputs.begin(), o.outputs.end(), "-") + (o.json_path == "-") > 1)
-        throw Error(Exit::usage, "Only one of the outputs can go to standard output.");
     if (std::find(o.aovs.begin(), o.aovs.end(), "all") != o.aovs.end())
         o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance", "error"};
     const bool exr =

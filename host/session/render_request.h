@@ -53,6 +53,8 @@ struct RenderRequest {
     std::optional<PathDriverKind> path_driver;  ///< none: the device's own
 
     int scene_index = -1;
+    bool strict = false;                  ///< damaged data of a scene end it
+    std::optional<unsigned> max_texture;  ///< texels on the longer side; 0: any; none: what fits
     std::string camera;
     std::optional<std::array<double, 6>> look_at;
     std::optional<double> fov;  ///< vertical, degrees
@@ -75,6 +77,10 @@ struct RenderRequest {
 
     /// What ends the render.
     RenderGoal goal() const;
+    /// Every file that is written, and every one that is named to be read; some empty
+    /// (session/check_outputs.h).
+    std::vector<std::string> outputs_named() const;
+    std::vector<std::string> inputs_named() const;
 };
 
 /// Fills in the default output and checks what the members say together, in the words of the command line.

@@ -17,6 +17,7 @@
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
 #include "io/io.h"
+#include "session/check_outputs.h"
 #include "session/prepare.h"
 #include "trace/node_format.h"
 #include "trace/path_driver.h"
@@ -36,13 +37,11 @@ bool is_same_file(const std::string& a, const std::string& b) {
 /// Everything that can be wrong is found before the long part.
 RenderRequest checked(RenderRequest request) {
     complete(request);
+    check_outputs(request.outputs_named(), request.inputs_named());
     const std::string& film = request.film_path;
     if (std::filesystem::is_regular_file(film) && !is_same_file(film, request.resume_path))
         throw Error(Exit::usage, "The film " + film + " is there already: triad render --resume " + film +
                                      " goes on with it. Remove it, or name another one, to begin again.");
-    for (const std::string& path : request.outputs) check_writable(path);
-    for (const std::string& path : {request.film_path, request.json_path})
-        if (!path.empty()) check_writable(path);
     set_host_threads(request.threads);
     if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
     return request;
@@ -75,10 +74,10 @@ std::string joined(const std::vector<Device>& devices, const Say& say) {
     return text;
 }
 
-Scene timed_scene(const RenderRequest& request, double& seconds) {
+Scene timed_scene(const RenderRequest& request, double& seconds, GltfReport& report) {
     const Span span("load the scene");
     const auto start = Clock::now();
-    Scene scene = load_scene(request);
+    Scene scene = load_scene(request, &report);
     seconds = since(start);
     return scene;
 }
@@ -125,7 +124,7 @@ std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const
 RenderSession::RenderSession(RenderRequest request)
     : request_(checked(std::move(request))),
       lock_(lock_of(request_)),
-      scene_(timed_scene(request_, load_seconds_)),
+      scene_(timed_scene(request_, load_seconds_, loaded_)),
       settings_(settings_of(request_, scene_)),
       devices_(open_devices(request_)),
       renderer_(std::make_unique<Renderer>(pointers(devices_), scene_, settings_)),
@@ -221,6 +220,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     if (!request_.animation.empty()) metadata["triad:animation"] = request_.animation;
     if (request_.pose_time != 0) metadata["triad:pose_time"] = format("%.9g", request_.pose_time);
     metadata["triad:machine"] = machine_words();
+    if (loaded_.max_texture > 0) metadata["triad:max_texture"] = std::to_string(loaded_.max_texture);
     unsigned units = 0;
     for (const Device& device : devices_) units += device.info().compute_units;
     metadata["triad:compute_units"] = std::to_string(units);

@@ -54,6 +54,7 @@ class RenderSession {
     RenderRequest request_;
     std::unique_ptr<FileLock> lock_;  ///< on the film that is written
     double load_seconds_ = 0, resumed_samples_ = 0;
+    GltfReport loaded_;
     Scene scene_;
     RenderSettings settings_;
     std::vector<Device> devices_;

@@ -28,16 +28,16 @@ struct NoisyPicture {
     }
 };
 
-struct Outcome {
+struct Followed {
     double samples = 0, seconds = 0;
     int rounds = 0;
     Stop stop = Stop::samples;
 };
 
 /// What the renderer does with a schedule: passes of a sample, or finer ones where sampling is adaptive.
-Outcome follow(const RenderGoal& goal, NoisyPicture picture) {
+Followed follow(const RenderGoal& goal, NoisyPicture picture) {
     Schedule schedule(goal, 1);
-    Outcome o;
+    Followed o;
     while (const auto end = schedule.next_round(o.samples, o.seconds)) {
         EXPECT_GT(*end, o.samples);
         while (o.samples < *end - 1e-9 && !schedule.time_is_up(o.samples, o.seconds)) {
@@ -62,7 +62,7 @@ constexpr std::uint64_t no_limit = 1u << 30;
 }  // namespace
 
 TEST(Schedule, samples_alone_are_one_round) {
-    const Outcome o = follow({.samples = {5, 69}}, {});
+    const Followed o = follow({.samples = {5, 69}}, {});
     EXPECT_EQ(o.samples, 64);
     EXPECT_EQ(o.rounds, 1);
     EXPECT_EQ(o.stop, Stop::samples);
@@ -73,7 +73,7 @@ TEST(Schedule, the_error_asked_for_is_reached_and_not_by_far) {
         for (const double slope : {-0.8, -1.0, -1.4})
             for (const double error : {0.05, 0.002, 1e-5}) {
                 const NoisyPicture picture{.slope = slope};
-                const Outcome o =
+                const Followed o =
                     follow({.samples = {0, no_limit}, .error = error, .adaptive = adaptive}, picture);
                 EXPECT_EQ(o.stop, Stop::error);
                 EXPECT_LT(picture.error(o.samples), 1.02 * error) << slope;
@@ -87,7 +87,7 @@ TEST(Schedule, estimates_that_scatter_do_not_move_the_error_reached) {
     std::vector<double> ratios;
     for (unsigned seed = 0; seed < 200; ++seed) {
         const NoisyPicture picture{.slope = -1.1, .scatter = 0.05, .random = std::mt19937(seed)};
-        const Outcome o = follow({.samples = {0, no_limit}, .error = 0.001, .adaptive = true}, picture);
+        const Followed o = follow({.samples = {0, no_limit}, .error = 0.001, .adaptive = true}, picture);
         ratios.push_back(picture.error(o.samples) / 0.001);
         EXPECT_GT(ratios.back(), 1 / 1.5) << seed;
         EXPECT_LT(ratios.back(), 1.2) << seed;
@@ -100,7 +100,7 @@ TEST(Schedule, the_time_asked_for_is_used_and_not_exceeded) {
     for (const double slower : {-0.5, 0.0, 2.0})
         for (const double seconds : {2.5, 10.0, 1000.0}) {
             const RenderGoal goal{.samples = {0, no_limit}, .seconds = seconds, .adaptive = true};
-            const Outcome o = follow(goal, {.slower = slower});
+            const Followed o = follow(goal, {.slower = slower});
             EXPECT_EQ(o.stop, Stop::time);
             EXPECT_GT(o.seconds, 0.95 * seconds) << slower;
             EXPECT_LT(o.seconds, 1.01 * seconds) << slower;
@@ -109,7 +109,7 @@ TEST(Schedule, the_time_asked_for_is_used_and_not_exceeded) {
 
 TEST(Schedule, even_renders_end_after_whole_samples_where_that_misses_the_time_by_little) {
     for (const double seconds : {2.51, 7.77, 100.0}) {
-        const Outcome o = follow({.samples = {0, no_limit}, .seconds = seconds}, {});
+        const Followed o = follow({.samples = {0, no_limit}, .seconds = seconds}, {});
         EXPECT_EQ(o.stop, Stop::time);
         EXPECT_LE(std::abs(o.seconds - seconds), 0.05 + 1e-9) << seconds;
         EXPECT_EQ(o.samples, std::round(o.samples));
@@ -119,7 +119,7 @@ TEST(Schedule, even_renders_end_after_whole_samples_where_that_misses_the_time_b
 TEST(Schedule, even_renders_of_few_samples_end_within_one) {
     for (const double slower : {-0.5, 0.0, 2.0})
         for (const double seconds : {0.14, 0.36, 1.05, 2.3}) {
-            const Outcome o = follow({.samples = {0, no_limit}, .seconds = seconds}, {.slower = slower});
+            const Followed o = follow({.samples = {0, no_limit}, .seconds = seconds}, {.slower = slower});
             EXPECT_EQ(o.stop, Stop::time);
             EXPECT_NEAR(o.seconds, seconds, 0.05 * seconds) << slower;
         }
@@ -127,7 +127,7 @@ TEST(Schedule, even_renders_of_few_samples_end_within_one) {
 
 TEST(Schedule, a_time_shorter_than_one_sample_gives_one_sample) {
     for (const bool adaptive : {false, true}) {
-        const Outcome o = follow({.samples = {0, no_limit}, .seconds = 0.01, .adaptive = adaptive}, {});
+        const Followed o = follow({.samples = {0, no_limit}, .seconds = 0.01, .adaptive = adaptive}, {});
         EXPECT_EQ(o.samples, 1);
         EXPECT_EQ(o.stop, Stop::time);
     }
@@ -141,7 +141,7 @@ TEST(Schedule, whichever_goal_is_first_ends_it) {
 }
 
 TEST(Schedule, a_picture_without_noise_stops_at_the_first_look) {
-    const Outcome o = follow({.samples = {0, no_limit}, .error = 0.01}, {.error_at_one = 0});
+    const Followed o = follow({.samples = {0, no_limit}, .error = 0.01}, {.error_at_one = 0});
     EXPECT_EQ(o.samples, 4);
     EXPECT_EQ(o.stop, Stop::error);
 }
