@@ -19,7 +19,7 @@ void declare_scene(CLI::App& command, RenderRequest& o) {
         .add_option("--variant", o.variant,
                     "Of the file's materials (KHR_materials_variants; triad info lists them; default: every "
                     "primitive's own material)")
-        ->type_name("NAME")
+        ->type_name("VARIANT")
         ->group(scene_group);
     command
         .add_option("--animation", o.animation,
