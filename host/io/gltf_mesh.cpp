@@ -190,17 +190,9 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
     if (const int normals = attribute("NORMAL"); normals >= 0) {
         p.normals = read_vec3(file_, normals, Integers::quantised, what + ": NORMAL");
         tell(not_finite(p.normals), "NORMAL", no_numbers, "they become those of the triangles around");
-        tell(normalise(p.normals, p), "NORMAL", "without length",
-             "they become those of the triangles around");
     }
-    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map) {
+    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map)
         p.tangents = read_vec4(file_, tangents, Integers::quantised, what + ": TANGENT");
-        if (!normalise(p.tangents)) {
-            file_.fault(what + ": TANGENT (accessor " + std::to_string(tangents) +
-                        ") has elements without direction; all are computed anew.");
-            p.tangents.clear();
-        }
-    }
     for (const auto& [name, accessor] : source.attributes)
         if (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1")
             file_.warn(what + " has the attribute " + name.substr(0, 40) +
@@ -227,9 +219,12 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, cons
             for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
     }
     if (deformation.skin || !source.targets.empty()) deform(file_, source, deformation, p, what);
-    if (!p.normals.empty()) normalise(p.normals, p);
+    if (!p.normals.empty())
+        tell(normalise(p.normals, p), "NORMAL", "without length",
+             "they become those of the triangles around");
     if (!normalise(p.tangents)) {
-        file_.warn(what + " has tangents without direction; they are computed anew.");
+        file_.fault(what + ": TANGENT (accessor " + std::to_string(attribute("TANGENT")) +
+                    ") has elements without direction; all are computed anew.");
         p.tangents.clear();
     }
     if (normal_map && p.tangents.empty() && !p.uvs[normal_map->uv_set].empty()) {
