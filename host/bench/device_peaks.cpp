@@ -188,6 +188,20 @@ DevicePeaks kept_at(const fs::path& path) {
 
 }  // namespace
 
+namespace {
+
+/// To what `others` have more of.
+void raise(DevicePeaks& peaks, const DevicePeaks& others) {
+    peaks.flops = std::max(peaks.flops, others.flops);
+    for (MemoryPeak& peak : peaks.memory)
+        for (const MemoryPeak& other : others.memory)
+            if (other.bytes == peak.bytes)
+                peak.read = std::max(peak.read, other.read), peak.copy = std::max(peak.copy, other.copy),
+                peak.gathers = std::max(peak.gathers, other.gathers);
+}
+
+}  // namespace
+
 DevicePeaks measure_peaks(Device& device) {
     const auto start = std::chrono::steady_clock::now();
     Peaks measured(device);
@@ -205,9 +219,8 @@ DevicePeaks measure_peaks(Device& device) {
 DevicePeaks peaks_of(Device& device) {
     const fs::path path =
         kept_path(device.info(), "peaks", std::to_string(device.info().compute_units) + " units");
-    DevicePeaks peaks = kept_at(path);
-    if (!peaks.memory.empty()) return peaks;
-    peaks = measure_peaks(device);
+    DevicePeaks peaks = measure_peaks(device);
+    raise(peaks, kept_at(path));
     if (path.empty()) return peaks;
     try {
         fs::create_directories(path.parent_path());

@@ -23,7 +23,8 @@ struct DevicePeaks {
 /// The device must have a profiling queue. Takes about two seconds and the compiler's time.
 DevicePeaks measure_peaks(Device& device);
 
-/// Those that are kept about the device, its compute units and driver; else measures and keeps them.
+/// Measures them, and keeps the best of these and of those that are kept about the device, its compute units
+/// and driver: a busy machine makes no roof lower.
 DevicePeaks peaks_of(Device& device);
 
 }  // namespace triad
