@@ -17,9 +17,9 @@ double quantile(const std::vector<double>& sorted, double q) {
 
 }  // namespace
 
-std::vector<KernelRow> kernel_rows(const std::map<std::string, std::uint64_t>& items,
+std::vector<LaunchRow> kernel_rows(const std::map<std::string, std::uint64_t>& items,
                                    const std::map<std::string, std::vector<double>>& seconds, unsigned runs) {
-    std::vector<KernelRow> rows;
+    std::vector<LaunchRow> rows;
     double all = 0;
     for (const auto& [kernel, each] : seconds) {
         if (each.empty()) continue;
@@ -32,15 +32,15 @@ std::vector<KernelRow> kernel_rows(const std::map<std::string, std::uint64_t>& i
                         1e3 * quantile(sorted, 0.95), 1e3 * total, 0, total > 0 ? double(n) / total : 0});
         all += total;
     }
-    for (KernelRow& row : rows) row.share = all > 0 ? row.ms_total / (1e3 * all) : 0;
+    for (LaunchRow& row : rows) row.share = all > 0 ? row.ms_total / (1e3 * all) : 0;
     std::sort(rows.begin(), rows.end(),
-              [](const KernelRow& a, const KernelRow& b) { return a.ms_total > b.ms_total; });
+              [](const LaunchRow& a, const LaunchRow& b) { return a.ms_total > b.ms_total; });
     return rows;
 }
 
-Json to_json(const std::vector<KernelRow>& rows) {
+Json to_json(const std::vector<LaunchRow>& rows) {
     Json all = Json::array();
-    for (const KernelRow& row : rows)
+    for (const LaunchRow& row : rows)
         all.push_back({{"kernel", row.kernel},
                        {"launches", row.launches},
                        {"items", row.items},
@@ -52,10 +52,10 @@ Json to_json(const std::vector<KernelRow>& rows) {
     return all;
 }
 
-std::string table_text(const std::vector<KernelRow>& rows) {
+std::string table_text(const std::vector<LaunchRow>& rows) {
     std::string text = format("%-24s %8s %12s %11s %11s %11s %7s %12s\n", "kernel", "launches", "items",
                               "median ms", "p95 ms", "total ms", "share", "items/s");
-    for (const KernelRow& row : rows)
+    for (const LaunchRow& row : rows)
         text += format("%-24s %8zu %12llu %11.4f %11.4f %11.3f %6.1f%% %12.4g\n", row.kernel.c_str(),
                        row.launches, static_cast<unsigned long long>(row.items), row.ms_median, row.ms_p95,
                        row.ms_total, 100 * row.share, row.items_per_s);

@@ -9,7 +9,7 @@
 
 namespace triad {
 
-struct KernelRow {
+struct LaunchRow {
     std::string kernel;
     std::size_t launches = 0;                        ///< of one run of the work
     std::uint64_t items = 0;                         ///< work-items of these
@@ -19,11 +19,11 @@ struct KernelRow {
 };
 
 /// Items of one run, by kernel, and the seconds of each launch in `runs` runs. The longest first.
-std::vector<KernelRow> kernel_rows(const std::map<std::string, std::uint64_t>& items,
+std::vector<LaunchRow> kernel_rows(const std::map<std::string, std::uint64_t>& items,
                                    const std::map<std::string, std::vector<double>>& seconds, unsigned runs);
 
-Json to_json(const std::vector<KernelRow>& rows);
+Json to_json(const std::vector<LaunchRow>& rows);
 /// Lines for a terminal, with a head.
-std::string table_text(const std::vector<KernelRow>& rows);
+std::string table_text(const std::vector<LaunchRow>& rows);
 
 }  // namespace triad

@@ -107,7 +107,7 @@ std::size_t chosen_launch(Replayer& replayer, const ReplayRequest& o) {
     return places[std::size_t(std::max_element(times.begin(), times.end()) - times.begin())];
 }
 
-std::vector<KernelRow> measured_alone(Replayer& replayer, const ReplayRequest& o, const Lines& lines) {
+std::vector<LaunchRow> measured_alone(Replayer& replayer, const ReplayRequest& o, const Lines& lines) {
     const std::size_t place = chosen_launch(replayer, o);
     const std::vector<std::size_t> places = replayer.launches_of(o.kernel);
     const auto number = std::find(places.begin(), places.end(), place) - places.begin() + 1;
@@ -122,7 +122,7 @@ std::vector<KernelRow> measured_alone(Replayer& replayer, const ReplayRequest& o
 constexpr double least_share_of_events = 0.01;
 
 struct Measured {
-    std::vector<KernelRow> rows;
+    std::vector<LaunchRow> rows;
     double ms_of_run = 0;  ///< by the host's clock: the least
 };
 
@@ -132,7 +132,7 @@ Measured measured(Replayer& replayer, unsigned runs, const LocalSizes& sizes = {
     for (unsigned i = 0; i < runs; ++i) least = std::min(least, replayer.run(sizes));
     Measured m{kernel_rows(items_of(replayer), replayer.take_times(), runs), 1e3 * least};
     double events = 0;
-    for (const KernelRow& row : m.rows) events += row.ms_total;
+    for (const LaunchRow& row : m.rows) events += row.ms_total;
     if (events < least_share_of_events * m.ms_of_run)
         warn(format(
             "The driver's profiling events add up to %.3g of the %.3g ms that a run takes: it does not "
@@ -189,7 +189,7 @@ Exit replay(const ReplayRequest& o) {
     more["verification"] = to_json(verification);
     if (verification.ok) lines.say(verification.sentence + "\n");
 
-    std::vector<KernelRow> rows;
+    std::vector<LaunchRow> rows;
     if (o.repeat > 0 && !o.kernel.empty()) {
         rows = measured_alone(replayer, o, lines);
         lines.say(table_text(rows));

@@ -161,3 +161,25 @@ TEST(Includes, rules_catch_what_they_forbid) {
         "#include \"device/device.h\"\n#include \"kernels/types.h\"\n#include \"kernels/arguments.h\"\n"));
     EXPECT_FALSE(bad("host/cli/a.cpp", "// no #include \"x\" here: device/device.h\n#include \"io/io.h\"\n"));
 }
+
+/// Two types of one name in one namespace are one type to the linker, which takes either's functions for
+/// both.
+TEST(Headers, give_every_type_a_name_of_its_own) {
+    static const std::regex scope(R"(^namespace ([A-Za-z:]+) \{)", std::regex::multiline),
+        type(R"(^(?:struct|class|union|enum class) (\w+)(?: :[^:;][^;]*)? \{)", std::regex::multiline);
+    std::map<std::string, Names> files;
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(TRIAD_SOURCE_DIR) / "host")) {
+        if (entry.path().extension() != ".h") continue;
+        std::ifstream file(entry.path());
+        std::string line, inside;
+        for (std::smatch found; std::getline(file, line);) {
+            if (std::regex_search(line, found, scope))
+                inside = found[1];
+            else if (std::regex_search(line, found, type))
+                files[inside + "::" + found[1].str()].insert(entry.path().string());
+        }
+    }
+    EXPECT_GT(files.size(), 100u);
+    for (const auto& [name, where] : files)
+        EXPECT_EQ(where.size(), 1u) << name << " is in " << *where.begin() << " and in " << *where.rbegin();
+}

@@ -107,7 +107,7 @@ TEST(ReplayVerify, lost_samples_and_other_numbers_of_rays_do_not_agree) {
 }
 
 TEST(KernelRows, have_medians_shares_and_rates) {
-    const std::vector<KernelRow> rows = kernel_rows(
+    const std::vector<LaunchRow> rows = kernel_rows(
         {{"a", 1000}, {"b", 10}}, {{"a", {0.001, 0.003, 0.002, 0.002}}, {"b", {0.004, 0.008}}}, 2);
     ASSERT_EQ(rows.size(), 2u);
     EXPECT_EQ(rows[0].kernel, "b");  // the longest first
