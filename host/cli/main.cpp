@@ -1,15 +1,9 @@
-// The only place that catches, prints and exits.
-#include <fcntl.h>
-
-#include <csignal>
-#include <cstdio>
+// triad: its commands.
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
-#include <new>
 #include <string>
 
-#include "base/memory_limit.h"
+#include "base/program.h"
 #include "base/shell_limits.h"
 #include "base/text.h"
 #include "cli/command_line.h"
@@ -19,12 +13,7 @@ namespace {
 
 using namespace triad;
 
-constexpr int internal_error = 70;  // EX_SOFTWARE: a defect of Triad
-
-int complain(int exit, const std::string& sentence) {
-    std::fprintf(stderr, "triad: %s\n", sentence.c_str());
-    return exit;
-}
+const std::string program = "triad";
 
 /// "Did you mean ...?", or where help is.
 std::string hint(const CLI::App& app) {
@@ -61,43 +50,10 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& success) {  // --help, --version
         return app.exit(success);
     } catch (const CLI::ParseError& error) {
-        return complain(static_cast<int>(Exit::usage), std::string(error.what()) + "\n" + hint(app));
+        return complain(program, static_cast<int>(Exit::usage), std::string(error.what()) + "\n" + hint(app));
     }
 }
 
-/// The exit code of a whole program.
-int run_and_tell(int argc, char** argv) {
-    try {
-        return run(argc, argv);
-    } catch (const Error& error) {
-        return complain(static_cast<int>(error.exit()), error.what());
-    } catch (const std::bad_alloc& error) {
-        const std::string said = error.what();
-        return complain(static_cast<int>(Exit::memory),
-                        said.find(' ') == std::string::npos
-                            ? "There is not enough memory for this scene or picture."
-                            : said);
-    } catch (const std::filesystem::filesystem_error& error) {
-        return complain(static_cast<int>(Exit::scene), error.what());
-    } catch (const std::exception& error) {
-        return complain(internal_error, std::string("internal error: ") + error.what());
-    }
-}
-
-/// The exit code once all that was printed is out: what went to a full disk or a closed pipe was not done.
-int told(int exit) {
-    const bool is_out = !std::cout.flush().fail() && std::fflush(stdout) == 0 && !std::ferror(stdout);
-    if (is_out || exit != static_cast<int>(Exit::done)) return exit;
-    return complain(static_cast<int>(Exit::scene),
-                    "Standard output is closed or full, so that some of what was to be printed is lost.");
-}
-
-/// Where a standard stream is closed, a file that is opened would take its place and what is printed would go
-/// into it. Nothing can be written to what stands there now.
-void fill_standard_streams() {
-    for (int stream = 0; stream < 3; ++stream)
-        if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) != stream) std::abort();
-}
 /// What the loader calls before the initialisers of any library.
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = heed_shell_limits;
 
@@ -105,13 +61,9 @@ void fill_standard_streams() {
 
 int main(int argc, char** argv) {
     libraries_have_started();
-    fill_standard_streams();
+    prepare_process();
     survive_drivers(argc, argv);
-    std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
-    std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
-    set_memory_limit(available_memory() / 2);
-    const int exit = told(run_and_tell(argc, argv));
-    if (!any_device_hangs()) return exit;
-    std::cout.flush(), std::fflush(nullptr);
-    std::_Exit(exit);  // its driver would wait for it
+    const int exit = exit_code_of(program, [&] { return run(argc, argv); });
+    if (any_device_hangs()) std::_Exit(exit);  // its driver would wait for it
+    return exit;
 }
