@@ -108,6 +108,132 @@ std::vector<vec2> transformed(const std::vector<vec2>& uvs, const TextureUse& us
     return result;
 }
 
+/// A primitive of the file while it is read.
+struct Source {
+    File& file;
+    const tinygltf::Primitive& primitive;
+    const std::string& what;  ///< for messages
+    std::size_t count = 0;    ///< of vertices
+
+    /// Its accessor; -1: there is none.
+    int attribute(const std::string& name) const {
+        const auto found = primitive.attributes.find(name);
+        return found == primitive.attributes.end() ? -1 : found->second;
+    }
+    const tinygltf::Accessor& accessor(int index) const { return file.model.accessors[std::size_t(index)]; }
+
+    /// That so many of the elements are damaged, and what becomes of them.
+    void tell(std::size_t faulty, const std::string& name, const char* fault, const char* instead) const {
+        if (faulty > 0)
+            file.fault(what + ": " + name + " (accessor " + std::to_string(attribute(name)) + ") has " +
+                       std::to_string(faulty) + " of " + std::to_string(count) + " elements " + fault + "; " +
+                       instead + ".");
+    }
+};
+
+constexpr const char* no_numbers = "that are no finite numbers";
+
+void require_equal_counts(const Source& source) {
+    for (const auto& [name, accessor] : source.primitive.attributes)
+        if (const std::size_t count = source.accessor(accessor).count; count != source.count)
+            throw Error(Exit::scene, source.what + ": " + name + " (accessor " + std::to_string(accessor) +
+                                         ") has " + std::to_string(count) + " elements but POSITION has " +
+                                         std::to_string(source.count) + ".");
+}
+
+/// Every vertex once where the file has none.
+std::vector<std::uint32_t> indices_of(const Source& source) {
+    std::vector<std::uint32_t> indices;
+    if (source.primitive.indices < 0) {
+        source.file.charge(source.count * sizeof(std::uint32_t), source.what);
+        indices.resize(source.count);
+        std::iota(indices.begin(), indices.end(), 0u);
+        return indices;
+    }
+    indices = read_indices(source.file, source.primitive.indices, source.what + ": indices");
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        if (indices[i] >= source.count)
+            throw Error(Exit::scene, source.what + ": index " + std::to_string(i) + " is " +
+                                         std::to_string(indices[i]) + " but there are " +
+                                         std::to_string(source.count) + " vertices.");
+    return indices;
+}
+
+/// Triangles or strokes.
+void read_shape(const Source& source, int mode, Primitive& p) {
+    const std::vector<std::uint32_t> indices = indices_of(source);
+    source.file.charge(indices.size() * (mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * sizeof(std::uint32_t),
+                       source.what);
+    if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
+        source.file.warn(source.what + " has " + std::to_string(indices.size()) +
+                         " corners, no multiple of 3; the last are left out.");
+    if (mode >= TINYGLTF_MODE_TRIANGLES)
+        p.triangles = triangles_of(indices, mode);
+    else
+        p.strokes = strokes_of(indices, mode);
+}
+
+/// As they are in the file: settle_directions() makes them unit vectors.
+void read_directions(const Source& source, bool with_tangents, Primitive& p) {
+    if (const int normals = source.attribute("NORMAL"); normals >= 0) {
+        p.normals = read_vec3(source.file, normals, Integers::quantised, source.what + ": NORMAL");
+        source.tell(not_finite(p.normals), "NORMAL", no_numbers, "they become those of the triangles around");
+    }
+    if (const int tangents = source.attribute("TANGENT");
+        tangents >= 0 && !p.normals.empty() && with_tangents)
+        p.tangents = read_vec4(source.file, tangents, Integers::quantised, source.what + ": TANGENT");
+}
+
+void read_uvs(const Source& source, Primitive& p) {
+    for (const auto& [name, accessor] : source.primitive.attributes)
+        if (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1")
+            source.file.warn(source.what + " has the attribute " + name.substr(0, 40) +
+                             "; only TEXCOORD_0 and 1 are used.");
+    for (int set = 0; set < 2; ++set) {
+        const std::string name = "TEXCOORD_" + std::to_string(set);
+        const int accessor = source.attribute(name);
+        if (accessor < 0) continue;
+        const Integers integers = source.file.quantised ? Integers::quantised : Integers::normalised;
+        p.uvs[set] = read_vec2(source.file, accessor, integers, source.what + ": " + name);
+        source.tell(not_finite(p.uvs[set]), name, no_numbers, "they become 0");
+        for (vec2& uv : p.uvs[set])
+            if (!is_finite(uv)) uv = vec2(0.0f);
+    }
+}
+
+void read_colours(const Source& source, Primitive& p) {
+    const int colours = source.attribute("COLOR_0");
+    if (colours < 0) return;
+    const std::string name = source.what + ": COLOR_0";
+    if (source.accessor(colours).type == TINYGLTF_TYPE_VEC3) {
+        for (const vec3& c : read_vec3(source.file, colours, Integers::normalised, name))
+            p.colours.emplace_back(c, 1.0f);
+    } else {
+        p.colours = read_vec4(source.file, colours, Integers::normalised, name);
+    }
+    source.tell(not_finite(p.colours), "COLOR_0", no_numbers, "they become 0 or 1");
+    for (vec4& c : p.colours)
+        for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
+}
+
+/// Unit normals and tangents, once the primitive is posed; tangents are made where a normal map lacks them.
+void settle_directions(const Source& source, const std::optional<TextureUse>& normal_map, Primitive& p) {
+    if (!p.normals.empty())
+        source.tell(normalise(p.normals, p), "NORMAL", "without length",
+                    "they become those of the triangles around");
+    if (!normalise(p.tangents)) {
+        source.file.fault(source.what + ": TANGENT (accessor " + std::to_string(source.attribute("TANGENT")) +
+                          ") has elements without direction; all are computed anew.");
+        p.tangents.clear();
+    }
+    if (!normal_map || !p.tangents.empty() || p.uvs[normal_map->uv_set].empty()) return;
+    if (p.normals.empty()) {
+        source.file.charge(p.triangles.size() * 256, source.what);
+        make_flat(p);
+    }
+    generate_tangents(p, transformed(p.uvs[normal_map->uv_set], *normal_map));
+}
+
 }  // namespace
 
 std::size_t Meshes::use(int index, int skin, const Deformation& deformation) {
@@ -127,113 +253,34 @@ std::size_t Meshes::use(int index, int skin, const Deformation& deformation) {
     return found->second;
 }
 
-std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& source, const Deformation& deformation,
+std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& primitive, const Deformation& deformation,
                                          const std::string& what) {
-    const int mode = source.mode < 0 ? TINYGLTF_MODE_TRIANGLES : source.mode;
-    const auto attribute = [&](const char* name) {
-        const auto found = source.attributes.find(name);
-        return found == source.attributes.end() ? -1 : found->second;
-    };
-    const int positions = attribute("POSITION");
+    Source source{file_, primitive, what};
+    const int positions = source.attribute("POSITION");
     if (positions < 0) {
         file_.warn(what + " has no POSITION; it is left out.");
         return std::nullopt;
     }
-    const std::size_t count = file_.model.accessors[std::size_t(positions)].count;
-    for (const auto& [name, accessor] : source.attributes)
-        if (file_.model.accessors[std::size_t(accessor)].count != count)
-            throw Error(Exit::scene, what + ": " + name + " (accessor " + std::to_string(accessor) +
-                                         ") has " +
-                                         std::to_string(file_.model.accessors[std::size_t(accessor)].count) +
-                                         " elements but POSITION has " + std::to_string(count) + ".");
-
-    const auto tell = [&](std::size_t faulty, const char* name, const char* fault, const char* instead) {
-        if (faulty > 0)
-            file_.fault(what + ": " + name + " (accessor " + std::to_string(attribute(name)) + ") has " +
-                        std::to_string(faulty) + " of " + std::to_string(count) + " elements " + fault +
-                        "; " + instead + ".");
-    };
-    const char* const no_numbers = "that are no finite numbers";
+    source.count = source.accessor(positions).count;
+    require_equal_counts(source);
 
     Primitive p;
     p.positions = read_vec3(file_, positions, Integers::quantised, what + ": POSITION");
-    tell(not_finite(p.positions), "POSITION", no_numbers, "triangles at them are left out");
-    if (count >= 0xffffffffu) throw Error(Exit::scene, what + " has too many vertices.");
+    source.tell(not_finite(p.positions), "POSITION", no_numbers, "triangles at them are left out");
+    if (source.count >= 0xffffffffu) throw Error(Exit::scene, what + " has too many vertices.");
 
-    std::vector<std::uint32_t> indices;
-    if (source.indices >= 0) {
-        indices = read_indices(file_, source.indices, what + ": indices");
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            if (indices[i] >= count)
-                throw Error(Exit::scene, what + ": index " + std::to_string(i) + " is " +
-                                             std::to_string(indices[i]) + " but there are " +
-                                             std::to_string(count) + " vertices.");
-    } else {
-        file_.charge(count * sizeof(std::uint32_t), what);
-        indices.resize(count);
-        std::iota(indices.begin(), indices.end(), 0u);
-    }
-    file_.charge(indices.size() * (mode == TINYGLTF_MODE_TRIANGLES ? 1 : 3) * sizeof(std::uint32_t), what);
-    const bool is_surface = mode >= TINYGLTF_MODE_TRIANGLES;
-    if (mode == TINYGLTF_MODE_TRIANGLES && indices.size() % 3 != 0)
-        file_.warn(what + " has " + std::to_string(indices.size()) +
-                   " corners, no multiple of 3; the last are left out.");
-    if (is_surface)
-        p.triangles = triangles_of(indices, mode);
-    else
-        p.strokes = strokes_of(indices, mode);
-
-    const int material = material_of(source, variant_);
-    p.material = is_surface ? materials_.use(material)
-                            : materials_.use_for_strokes(material, attribute("NORMAL") >= 0);
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    read_shape(source, mode, p);
+    const int material = material_of(primitive, variant_);
+    p.material = mode >= TINYGLTF_MODE_TRIANGLES
+                     ? materials_.use(material)
+                     : materials_.use_for_strokes(material, source.attribute("NORMAL") >= 0);
     const std::optional<TextureUse> normal_map = scene_.materials[p.material].normal_texture;
-    if (const int normals = attribute("NORMAL"); normals >= 0) {
-        p.normals = read_vec3(file_, normals, Integers::quantised, what + ": NORMAL");
-        tell(not_finite(p.normals), "NORMAL", no_numbers, "they become those of the triangles around");
-    }
-    if (const int tangents = attribute("TANGENT"); tangents >= 0 && !p.normals.empty() && normal_map)
-        p.tangents = read_vec4(file_, tangents, Integers::quantised, what + ": TANGENT");
-    for (const auto& [name, accessor] : source.attributes)
-        if (name.starts_with("TEXCOORD_") && name != "TEXCOORD_0" && name != "TEXCOORD_1")
-            file_.warn(what + " has the attribute " + name.substr(0, 40) +
-                       "; only TEXCOORD_0 and 1 are used.");
-    for (int set = 0; set < 2; ++set) {
-        const std::string name = "TEXCOORD_" + std::to_string(set);
-        const int accessor = attribute(name.c_str());
-        if (accessor < 0) continue;
-        const Integers integers = file_.quantised ? Integers::quantised : Integers::normalised;
-        p.uvs[set] = read_vec2(file_, accessor, integers, what + ": " + name);
-        tell(not_finite(p.uvs[set]), name.c_str(), no_numbers, "they become 0");
-        for (vec2& uv : p.uvs[set])
-            if (!is_finite(uv)) uv = vec2(0.0f);
-    }
-    if (const int colours = attribute("COLOR_0"); colours >= 0) {
-        if (file_.model.accessors[std::size_t(colours)].type == TINYGLTF_TYPE_VEC3) {
-            for (const vec3& c : read_vec3(file_, colours, Integers::normalised, what + ": COLOR_0"))
-                p.colours.emplace_back(c, 1.0f);
-        } else {
-            p.colours = read_vec4(file_, colours, Integers::normalised, what + ": COLOR_0");
-        }
-        tell(not_finite(p.colours), "COLOR_0", no_numbers, "they become 0 or 1");
-        for (vec4& c : p.colours)
-            for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
-    }
-    if (deformation.skin || !source.targets.empty()) deform(file_, source, deformation, p, what);
-    if (!p.normals.empty())
-        tell(normalise(p.normals, p), "NORMAL", "without length",
-             "they become those of the triangles around");
-    if (!normalise(p.tangents)) {
-        file_.fault(what + ": TANGENT (accessor " + std::to_string(attribute("TANGENT")) +
-                    ") has elements without direction; all are computed anew.");
-        p.tangents.clear();
-    }
-    if (normal_map && p.tangents.empty() && !p.uvs[normal_map->uv_set].empty()) {
-        if (p.normals.empty()) {
-            file_.charge(p.triangles.size() * 256, what);
-            make_flat(p);
-        }
-        generate_tangents(p, transformed(p.uvs[normal_map->uv_set], *normal_map));
-    }
+    read_directions(source, normal_map.has_value(), p);
+    read_uvs(source, p);
+    read_colours(source, p);
+    if (deformation.skin || !primitive.targets.empty()) deform(file_, primitive, deformation, p, what);
+    settle_directions(source, normal_map, p);
     return p;
 }
 

@@ -23,7 +23,7 @@ class Meshes {
     std::size_t use(int mesh, int skin, const Deformation& deformation);
 
   private:
-    std::optional<Primitive> convert(const tinygltf::Primitive& source, const Deformation& deformation,
+    std::optional<Primitive> convert(const tinygltf::Primitive& primitive, const Deformation& deformation,
                                      const std::string& what);
 
     File& file_;
