@@ -17,7 +17,6 @@ namespace {
 
 const char* const view_group = "View";
 const char* const light_group = "Light and background";
-const char* const output_group = "Output";
 const char* const machine_group = "Machine";
 
 void declare_goals(CLI::App& command, RenderRequest& o) {
@@ -197,53 +196,6 @@ void declare_light(CLI::App& command, RenderRequest& o) {
         ->group(light_group);
 }
 
-void declare_output(CLI::App& command, RenderRequest& o) {
-    command
-        .add_option("-o,--output", o.outputs,
-                    "Picture: .exr, .hdr (linear), .png, .jpg (tone-mapped), - (PNG on standard output); "
-                    "several allowed")
-        ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->group(output_group);
-    declare_style(command, o.style);
-    command
-        .add_option("--aov", o.aovs,
-                    "Layers for EXR files: albedo, normal, position, depth, samples, variance, error, or all")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(
-            CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}))
-        ->type_name("LIST")
-        ->group(output_group);
-    command
-        .add_option("--film", o.film_path,
-                    "Also write the film, now and then while rendering: for --resume, triad merge and triad "
-                    "resolve")
-        ->type_name("FILE")
-        ->group(output_group);
-    command
-        .add_option(
-            "--resume", o.resume_path,
-            "Go on from this film, with the scene and the options that it was begun with; the film is "
-            "written to it, or to --film")
-        ->type_name("FILM")
-        ->group(output_group);
-    command
-        .add_option("--checkpoint", o.checkpoint,
-                    "Seconds between two films that are written while rendering (default 60, or more where "
-                    "writing takes long)")
-        ->check(number_within(0, 1e9))
-        ->type_name("S")
-        ->group(output_group);
-    command.add_option("--json", o.json_path, "Write times, rays and errors as JSON")
-        ->type_name("FILE")
-        ->group(output_group);
-    command.add_option("--progress", o.progress, "On standard error: auto, bar, lines, json or none")
-        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
-        ->type_name("STYLE")
-        ->group(output_group);
-}
-
 void declare_machine(CLI::App& command, RenderRequest& o) {
     command
         .add_option(
@@ -288,7 +240,7 @@ void declare_workload(CLI::App& command, RenderRequest& o) {
 
 void declare(CLI::App& command, RenderRequest& o) {
     declare_workload(command, o);
-    declare_output(command, o);
+    declare_outputs(command, o);
 }
 
 }  // namespace triad

@@ -12,7 +12,8 @@ void declare_workload(CLI::App& command, RenderRequest& request);
 /// Declares the options on a subcommand. `request` must outlive the parsing; complete() it afterwards.
 void declare(CLI::App& command, RenderRequest& request);
 
-/// The options of the scene's file; a part of declare().
+/// The options of the scene's file, and of what is written; parts of declare().
 void declare_scene(CLI::App& command, RenderRequest& request);
+void declare_outputs(CLI::App& command, RenderRequest& request);
 
 }  // namespace triad

@@ -30,16 +30,6 @@ void declare_scene(CLI::App& command, RenderRequest& o) {
         ->check(number_within(-1e9, 1e9))
         ->type_name("T")
         ->group(scene_group);
-    add_parsed(
-        command, "--frames", "A:B",
-        "A picture of each of these frames (half-open; frame k is at k / --fps seconds): a.png becomes "
-        "a.0001.png, and films and JSON alike",
-        [&o](const std::string& v) { o.frames = parse_range("--frames", v); })
-        ->group(scene_group);
-    command.add_option("--fps", o.fps, "Frames in a second (default 24)")
-        ->check(number_within(1e-6, 1e6))
-        ->type_name("F")
-        ->group(scene_group);
     command
         .add_option("--point-size", o.point_size,
                     "Width of the file's points and lines, in pixels of the picture (default 1.5)")
