@@ -29,11 +29,9 @@ RenderSettings settings_of(const Check& check) {
     return s;
 }
 
-/// By the program with everything compiled in, so that the lower levels compile one.
 Film picture(Check& check, const Scene& scene, const RenderSettings& settings,
              const std::vector<SampleRange>& ranges) {
-    return render(check.device, scene, settings, ranges,
-                  check.level < CheckLevel::full ? std::optional<Features>(Features{}) : std::nullopt);
+    return render(check.device, scene, settings, ranges, features_at(check.level));
 }
 
 void ranges_in_any_order(Check& check) {

@@ -92,6 +92,18 @@ RenderSettings varied_settings() {
     return s;
 }
 
+std::optional<Features> features_at(CheckLevel level) {
+    if (level == CheckLevel::full) return {};
+    static const Features varied = [] {
+        Scene scene = varied_scene();
+        validate(scene);
+        Features f = features_of(pack(scene, varied_settings()), varied_settings());
+        f.light_tree = true;  // spheres that glow are many lights
+        return f;
+    }();
+    return varied;
+}
+
 Film render(Device& device, const Scene& scene, const RenderSettings& settings,
             const std::vector<SampleRange>& ranges, const std::optional<Features>& features) {
     Scene copy = scene;
@@ -132,8 +144,7 @@ Measured measure(Check& check, const Scene& scene, Plan plan) {
                                                                                             : 4;
     plan.spp = std::max(4u, plan.spp / cut);
     if (check.level == CheckLevel::tiny) plan.spp = 4, plan.size = std::min(plan.size, 4u);
-    return measure(check.device, scene, plan,
-                   check.level < CheckLevel::full ? std::optional<Features>(Features{}) : std::nullopt);
+    return measure(check.device, scene, plan, features_at(check.level));
 }
 
 std::vector<std::array<float, 4>> draw_lights(Check& check, const PackedScene& packed,

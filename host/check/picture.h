@@ -37,7 +37,11 @@ View orthographic(const dvec3& centre, const dvec3& towards, double half, double
 Scene varied_scene();
 RenderSettings varied_settings();
 
-/// The film of these sample ranges. `features` replaces those of the scene.
+/// What is compiled in besides what a scene needs: nothing at the full level; below it what the varied scene
+/// and spheres that glow need, so that few programs are compiled and none that takes a slow compiler minutes.
+std::optional<Features> features_at(CheckLevel level);
+
+/// The film of these sample ranges. `features` are compiled in besides those of the scene.
 Film render(Device& device, const Scene& scene, const RenderSettings& settings,
             const std::vector<SampleRange>& ranges, const std::optional<Features>& features = {});
 
@@ -61,8 +65,7 @@ struct Plan {
 Measured measure(Device& device, const Scene& scene, const Plan& plan,
                  const std::optional<Features>& features = {});
 
-/// The same with the samples of the check's level. Below the full level by the program that has everything
-/// compiled in, so that there is one to compile.
+/// The same with the samples and the features of the check's level.
 Measured measure(Check& check, const Scene& scene, Plan plan);
 
 /// Student's t quantile at which 8 seeds (7 degrees of freedom) are wrong once in 1e5, two-sided; the family

@@ -93,6 +93,12 @@ Features features_of(const PackedScene& packed, const RenderSettings& settings) 
     return f;
 }
 
+Features united(const Features& a, const Features& b) {
+    Features both = a;
+    for (const FeatureOption& o : table) both.*o.member |= b.*o.member;
+    return both;
+}
+
 std::map<std::string, std::string> options_of(const Features& features) {
     std::map<std::string, std::string> options;
     for (const FeatureOption& o : table)

@@ -28,6 +28,9 @@ Features facts_of(const Scene& scene);
 /// PackedScene::facts, what the packing decided (instances, photons), and what the settings ask for.
 Features features_of(const PackedScene& packed, const RenderSettings& settings);
 
+/// What either has.
+Features united(const Features& a, const Features& b);
+
 /// An option of kernels/features.h: TRIAD_ and its name.
 struct FeatureOption {
     const char* name;

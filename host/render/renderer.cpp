@@ -97,7 +97,7 @@ DeviceScenes scene_on(std::span<Device* const> devices, const Scene& scene, cons
 Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, const std::optional<Features>& f)
     : packed(scenes.front()->shared()),
       settings(timed(pilot_seconds, [&] { return with_photon_pilot(scenes, s); })),
-      features(f ? *f : features_of(*packed, settings)),
+      features(f ? united(*f, features_of(*packed, settings)) : features_of(*packed, settings)),
       store(*packed, settings) {
     assert(holds_for(*packed, s));
     const Span span("compile");

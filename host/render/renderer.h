@@ -55,8 +55,8 @@ using DeviceScenes = std::vector<std::shared_ptr<const DeviceScene>>;
 class Renderer {
   public:
     /// Packs the scene for one device: for a single picture. Throws Error(scene) "nothing to render ..." when
-    /// the scene has no triangles. `features` replaces what features_of() finds: tests prove that leaving
-    /// things out changes no bit.
+    /// the scene has no triangles. `features` are compiled in besides what features_of() finds: tests prove
+    /// that what a scene does not use changes no bit, and scenes share a program.
     Renderer(Device& device, const Scene& scene, const RenderSettings& settings,
              const std::optional<Features>& features = {});
     /// The same for several devices, which must live as long: they share the picture by their speed.
