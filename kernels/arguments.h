@@ -23,6 +23,7 @@
     ARRAY(float, uvs)      /* [2] */                                                                         \
     ARRAY(float, colours)  /* [4] */                                                                         \
     ARRAY(Material, materials)                                                                               \
+    ARRAY(MaterialExtensions, extensions) /* of the materials that have any */                               \
     ARRAY(TextureUse, texture_uses)                                                                          \
     ARRAY(Texture, textures)                                                                                 \
     ARRAY(uint, texels)                                                                                      \

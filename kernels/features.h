@@ -33,6 +33,21 @@
 #ifndef TRIAD_PRIORITIES /* bodies that overlap may differ in priority */
 #define TRIAD_PRIORITIES 1
 #endif
+#ifndef TRIAD_CLEARCOAT /* some material has KHR_materials_clearcoat */
+#define TRIAD_CLEARCOAT 1
+#endif
+#ifndef TRIAD_SHEEN /* some material has KHR_materials_sheen */
+#define TRIAD_SHEEN 1
+#endif
+#ifndef TRIAD_ANISOTROPY /* some material has KHR_materials_anisotropy (needs TRIAD_SPECULAR) */
+#define TRIAD_ANISOTROPY 1
+#endif
+#ifndef TRIAD_IRIDESCENCE /* some material has KHR_materials_iridescence (needs TRIAD_SPECULAR) */
+#define TRIAD_IRIDESCENCE 1
+#endif
+#ifndef TRIAD_DIFFUSE_TRANSMISSION /* some material has KHR_materials_diffuse_transmission */
+#define TRIAD_DIFFUSE_TRANSMISSION 1
+#endif
 #ifndef TRIAD_UNLIT /* some material is KHR_materials_unlit */
 #define TRIAD_UNLIT 1
 #endif

@@ -205,9 +205,59 @@ typedef struct Material {
     uint transmission_use;
     uint dispersion; /* of a solid body: its table of indices, or TRIAD_NONE */
     uint priority;   /* of a solid body among others that overlap it */
-    uint unused[2];
+    uint extensions; /* index of its MaterialExtensions, or TRIAD_NONE */
+    uint unused;
 } Material;
 TRIAD_SIZE(Material, 128);
+
+/* What some materials have besides: a block for each extension, which is read only where its option of
+ * features.h is on. A block with a factor (strength, colour) of 0 does nothing. *_use as in Material. */
+
+/* KHR_materials_clearcoat: a varnish of index 1.5 over everything else. */
+typedef struct ClearcoatBlock {
+    float factor, roughness, normal_scale;
+    uint factor_use, roughness_use, normal_use; /* R; G */
+} ClearcoatBlock;
+TRIAD_SIZE(ClearcoatBlock, 24);
+
+/* KHR_materials_sheen. */
+typedef struct SheenBlock {
+    float colour[3], roughness;
+    uint colour_use, roughness_use; /* sRGB; A */
+} SheenBlock;
+TRIAD_SIZE(SheenBlock, 24);
+
+/* KHR_materials_anisotropy: direction is (cos, sin) of the rotation, from the tangent towards the bitangent.
+ */
+typedef struct AnisotropyBlock {
+    float strength, direction[2];
+    uint use; /* RG: direction as [-1, 1]; B: strength */
+} AnisotropyBlock;
+TRIAD_SIZE(AnisotropyBlock, 16);
+
+/* KHR_materials_iridescence: a thin film over the base, thicknesses in nm. */
+typedef struct IridescenceBlock {
+    float factor, ior, thickness_minimum, thickness_maximum;
+    uint factor_use, thickness_use; /* R; G: from minimum to maximum (none: the maximum) */
+} IridescenceBlock;
+TRIAD_SIZE(IridescenceBlock, 24);
+
+/* KHR_materials_diffuse_transmission: share of the Lambert base that leaves on the other side. */
+typedef struct DiffuseTransmissionBlock {
+    float factor, colour[3];
+    uint factor_use, colour_use; /* A; sRGB */
+} DiffuseTransmissionBlock;
+TRIAD_SIZE(DiffuseTransmissionBlock, 24);
+
+typedef struct MaterialExtensions {
+    ClearcoatBlock clearcoat;
+    SheenBlock sheen;
+    AnisotropyBlock anisotropy;
+    IridescenceBlock iridescence;
+    DiffuseTransmissionBlock diffuse_transmission;
+    uint unused[4];
+} MaterialExtensions;
+TRIAD_SIZE(MaterialExtensions, 128);
 
 /* Directional-albedo tables, one float array (host/pack/albedo_tables.h, kernels/shading/albedo.h).
  * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over

@@ -18,6 +18,11 @@ constexpr FeatureOption table[] = {
     {"DISPERSION", &Features::dispersion},
     {"LIGHT_SPECTRA", &Features::light_spectra},
     {"PRIORITIES", &Features::priorities},
+    {"CLEARCOAT", &Features::clearcoat},
+    {"SHEEN", &Features::sheen},
+    {"ANISOTROPY", &Features::anisotropy},
+    {"IRIDESCENCE", &Features::iridescence},
+    {"DIFFUSE_TRANSMISSION", &Features::diffuse_transmission},
     {"UNLIT", &Features::unlit},
     {"TRIANGLE_LIGHTS", &Features::triangle_lights},
     {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
@@ -31,10 +36,7 @@ constexpr FeatureOption table[] = {
     {"BINS", &Features::bins},
 };
 
-bool textured(const Material& m) {
-    return m.base_colour_texture || m.metallic_roughness_texture || m.normal_texture || m.emission_texture ||
-           m.specular_texture || m.specular_colour_texture || m.transmission_texture;
-}
+bool textured(const Material& m) { return !texture_uses_of(m).empty(); }
 
 }  // namespace
 
@@ -63,12 +65,18 @@ Features facts_of(const Scene& scene) {
     };
     f.alpha_test = any([](const Material& m) { return m.alpha_mode != AlphaMode::opaque; });
     f.textures = any(textured);
-    f.normal_maps = any([](const Material& m) { return m.normal_texture.has_value(); });
+    f.normal_maps = any(
+        [](const Material& m) { return m.normal_texture || (m.clearcoat && m.clearcoat->normal_texture); });
     f.specular =
         any([](const Material& m) { return m.specular > 0 || m.metallic > 0 || m.transmission > 0; });
     f.transmission = any([](const Material& m) { return m.transmission > 0; });
     f.dispersion = any([](const Material& m) { return m.dispersion.has_value(); });
     f.priorities = any([](const Material& m) { return m.priority != 0; });
+    f.clearcoat = any([](const Material& m) { return m.clearcoat.has_value(); });
+    f.sheen = any([](const Material& m) { return m.sheen.has_value(); });
+    f.anisotropy = any([](const Material& m) { return m.anisotropy.has_value(); });
+    f.iridescence = any([](const Material& m) { return m.iridescence.has_value(); });
+    f.diffuse_transmission = any([](const Material& m) { return m.diffuse_transmission.has_value(); });
     f.unlit = any([](const Material& m) { return m.unlit; });
     f.triangle_lights = any([](const Material& m) { return m.emission != vec3(0.0f); });
     f.punctual_lights = !scene.lights.empty();

@@ -28,6 +28,7 @@ struct PackedLightSpectrum {
 /// for all eyes.
 struct PackedSurfaces {
     std::vector<dev::Material> materials;
+    std::vector<dev::MaterialExtensions> extensions;
     std::vector<dev::TextureUse> texture_uses;
     std::vector<dev::Texture> textures;
     AlignedVector<std::uint32_t> texels;

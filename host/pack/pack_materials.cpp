@@ -77,6 +77,39 @@ class TexturePacker {
     }
 };
 
+/// The blocks of a material that has any.
+dev::MaterialExtensions extensions_of(const Material& m, TexturePacker& textures) {
+    dev::MaterialExtensions e{};
+    if (const auto& c = m.clearcoat)
+        e.clearcoat = {c->factor,
+                       c->roughness,
+                       c->normal_scale,
+                       textures.use(c->texture, false),
+                       textures.use(c->roughness_texture, false),
+                       textures.use(c->normal_texture, false)};
+    if (const auto& s = m.sheen)
+        e.sheen = {{s->colour.x, s->colour.y, s->colour.z},
+                   s->roughness,
+                   textures.use(s->colour_texture, true),
+                   textures.use(s->roughness_texture, false)};
+    if (const auto& a = m.anisotropy)
+        e.anisotropy = {
+            a->strength, {std::cos(a->rotation), std::sin(a->rotation)}, textures.use(a->texture, false)};
+    if (const auto& i = m.iridescence)
+        e.iridescence = {i->factor,
+                         i->ior,
+                         i->thickness_minimum,
+                         i->thickness_maximum,
+                         textures.use(i->texture, false),
+                         textures.use(i->thickness_texture, false)};
+    if (const auto& d = m.diffuse_transmission)
+        e.diffuse_transmission = {d->factor,
+                                  {d->colour.x, d->colour.y, d->colour.z},
+                                  textures.use(d->texture, false),
+                                  textures.use(d->colour_texture, true)};
+    return e;
+}
+
 }  // namespace
 
 void pack_materials(const Scene& scene, PackedSurfaces& surfaces) {
@@ -116,6 +149,11 @@ void pack_materials(const Scene& scene, PackedSurfaces& surfaces) {
         d.transmission_use = textures.use(m.transmission_texture, false);
         d.dispersion = TRIAD_NONE;
         d.priority = m.priority;
+        d.extensions = TRIAD_NONE;
+        if (m.clearcoat || m.sheen || m.anisotropy || m.iridescence || m.diffuse_transmission) {
+            d.extensions = std::uint32_t(surfaces.extensions.size());
+            surfaces.extensions.push_back(extensions_of(m, textures));
+        }
         surfaces.materials.push_back(d);
     }
 }

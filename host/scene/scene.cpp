@@ -46,6 +46,28 @@ void put_all(Hash& h, const Members&... members) {
     (put(h, members), ...);
 }
 
+void put(Hash& h, const Clearcoat& c) {
+    put_all(h, c.factor, c.roughness, c.normal_scale, c.texture, c.roughness_texture, c.normal_texture);
+}
+void put(Hash& h, const Sheen& s) {
+    put_all(h, s.colour, s.roughness, s.colour_texture, s.roughness_texture);
+}
+void put(Hash& h, const Anisotropy& a) { put_all(h, a.strength, a.rotation, a.texture); }
+void put(Hash& h, const Iridescence& i) {
+    put_all(h, i.factor, i.ior, i.thickness_minimum, i.thickness_maximum, i.texture, i.thickness_texture);
+}
+void put(Hash& h, const DiffuseTransmission& d) {
+    put_all(h, d.factor, d.colour, d.texture, d.colour_texture);
+}
+
+/// Nothing where there is no such extension: hashes of scenes without it are what they were before.
+template <class Extension>
+void put_named(Hash& h, const char* name, const std::optional<Extension>& e) {
+    if (!e) return;
+    h.add(name);
+    put(h, *e);
+}
+
 void put(Hash& h, const Material& m) {
     put_all(h, m.base_colour, m.metallic, m.roughness, m.emission, m.normal_scale, int(m.alpha_mode),
             m.alpha_cutoff, std::uint8_t(m.double_sided), std::uint8_t(m.unlit), m.ior, m.specular,
@@ -54,6 +76,11 @@ void put(Hash& h, const Material& m) {
             m.specular_texture, m.specular_colour_texture, m.transmission_texture, m.dispersion,
             m.emission_spectrum);
     if (m.priority != 0) put(h, m.priority);
+    put_named(h, "clearcoat", m.clearcoat);
+    put_named(h, "sheen", m.sheen);
+    put_named(h, "anisotropy", m.anisotropy);
+    put_named(h, "iridescence", m.iridescence);
+    put_named(h, "diffuse transmission", m.diffuse_transmission);
 }
 
 void put(Hash& h, const Mesh& mesh) {
@@ -83,6 +110,20 @@ Bounds bounds_of(const Scene& scene) {
                 for (int k = 0; k < 2; ++k) bounds.add(transform_point(instance.to_world, p.positions[s[k]]));
         }
     return bounds;
+}
+
+std::vector<const TextureUse*> texture_uses_of(const Material& m) {
+    std::vector<const TextureUse*> uses;
+    const auto add = [&uses](const auto&... all) { (uses.push_back(all ? &*all : nullptr), ...); };
+    add(m.base_colour_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
+        m.specular_texture, m.specular_colour_texture, m.transmission_texture);
+    if (m.clearcoat) add(m.clearcoat->texture, m.clearcoat->roughness_texture, m.clearcoat->normal_texture);
+    if (m.sheen) add(m.sheen->colour_texture, m.sheen->roughness_texture);
+    if (m.anisotropy) add(m.anisotropy->texture);
+    if (m.iridescence) add(m.iridescence->texture, m.iridescence->thickness_texture);
+    if (m.diffuse_transmission) add(m.diffuse_transmission->texture, m.diffuse_transmission->colour_texture);
+    std::erase(uses, nullptr);
+    return uses;
 }
 
 std::string hash_of(const Scene& scene) {

@@ -47,6 +47,49 @@ enum class AlphaMode { opaque, mask, blend };
 
 /// glTF metallic-roughness and the KHR extensions of docs/conventions.md. Colour textures are decoded from
 /// sRGB (base_colour, emission, specular_colour); the others are linear data.
+/// Each extension of a material is there only where it does something.
+
+/// KHR_materials_clearcoat: a varnish of index 1.5 over everything else.
+struct Clearcoat {
+    float factor = 0.0f, roughness = 0.0f;  ///< in [0, 1], factor above 0
+    float normal_scale = 1.0f;
+    std::optional<TextureUse> texture;            ///< R
+    std::optional<TextureUse> roughness_texture;  ///< G
+    std::optional<TextureUse> normal_texture;     ///< none: the vertices' normal
+};
+
+/// KHR_materials_sheen: fibres over the base, under the varnish.
+struct Sheen {
+    vec3 colour{0.0f};  ///< in [0, 1], not black
+    float roughness = 0.0f;
+    std::optional<TextureUse> colour_texture;     ///< sRGB
+    std::optional<TextureUse> roughness_texture;  ///< A
+};
+
+/// KHR_materials_anisotropy.
+struct Anisotropy {
+    float strength = 0.0f;              ///< in [0, 1], above 0
+    float rotation = 0.0f;              ///< radians, from the tangent towards the bitangent
+    std::optional<TextureUse> texture;  ///< RG: direction; B: strength
+};
+
+/// KHR_materials_iridescence: a thin film over the base. Thicknesses in nm.
+struct Iridescence {
+    float factor = 0.0f;  ///< in [0, 1], above 0
+    float ior = 1.3f;     ///< of the film, at least 1
+    float thickness_minimum = 100.0f, thickness_maximum = 400.0f;
+    std::optional<TextureUse> texture;            ///< R
+    std::optional<TextureUse> thickness_texture;  ///< G, from minimum to maximum; none: the maximum
+};
+
+/// KHR_materials_diffuse_transmission: a share of the Lambert base leaves on the other side, in this colour.
+struct DiffuseTransmission {
+    float factor = 0.0f;                       ///< in [0, 1], above 0
+    vec3 colour{1.0f};                         ///< in [0, 1]
+    std::optional<TextureUse> texture;         ///< A
+    std::optional<TextureUse> colour_texture;  ///< sRGB
+};
+
 struct Material {
     std::string name;
     vec4 base_colour{1.0f};
@@ -75,7 +118,15 @@ struct Material {
     std::optional<TextureUse> specular_colour_texture;  ///< sRGB
     std::optional<TextureUse> transmission_texture;     ///< R
     std::optional<LightSpectrum> emission_spectrum;     ///< of which `emission` is the tint; none: D65
+    std::optional<Clearcoat> clearcoat;
+    std::optional<Sheen> sheen;
+    std::optional<Anisotropy> anisotropy;
+    std::optional<Iridescence> iridescence;
+    std::optional<DiffuseTransmission> diffuse_transmission;
 };
+
+/// Every texture that the material uses.
+std::vector<const TextureUse*> texture_uses_of(const Material& material);
 
 /// Triangles with one material. Optional attributes are empty or as long as positions.
 struct Primitive {

@@ -112,13 +112,10 @@ void check_material(const Scene& scene, const Material& m, const std::string& wh
     require(m.attenuation_distance >= 1.0 / limits::squared, what,
             ("has an attenuation distance that is no number, or below " + text_of(1.0 / limits::squared))
                 .c_str());
-    for (const auto* use :
-         {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture,
-          &m.specular_texture, &m.specular_colour_texture, &m.transmission_texture}) {
-        if (!*use) continue;
-        require((*use)->texture < scene.textures.size(), what, "uses a texture that does not exist");
-        require((*use)->uv_set < 2, what, "uses a UV set beyond 1");
-        require(std::all_of((*use)->transform.begin(), (*use)->transform.end(),
+    for (const TextureUse* use : texture_uses_of(m)) {
+        require(use->texture < scene.textures.size(), what, "uses a texture that does not exist");
+        require(use->uv_set < 2, what, "uses a UV set beyond 1");
+        require(std::all_of(use->transform.begin(), use->transform.end(),
                             [](float x) { return std::isfinite(x); }),
                 what, "has a texture transform with elements that are no numbers");
     }

@@ -43,6 +43,7 @@ DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> pack
     share(a.uvs, packed_->uvs);
     share(a.colours, packed_->colours);
     copy(a.materials, surfaces.materials);
+    copy(a.extensions, surfaces.extensions);
     copy(a.texture_uses, surfaces.texture_uses);
     copy(a.textures, surfaces.textures);
     share(a.texels, surfaces.texels);
