@@ -27,8 +27,9 @@
     ARRAY(TextureUse, texture_uses)                                                                          \
     ARRAY(Texture, textures)                                                                                 \
     ARRAY(uint, texels)                                                                                      \
-    ARRAY(float, srgb)   /* decoded value of every byte of an sRGB texel */                                  \
-    ARRAY(float, albedo) /* directional-albedo tables of shading/bsdf.h */                                   \
+    ARRAY(float, srgb)           /* decoded value of every byte of an sRGB texel */                          \
+    ARRAY(float, albedo)         /* directional-albedo tables of shading/bsdf.h */                           \
+    ARRAY(float, film_responses) /* of thin films; FILM_ROWS [3], where there are any */                     \
     ARRAY(Light, lights)                                                                                     \
     ARRAY(uint, light_cdf) /* tree of shape frame->lights */                                                 \
     ARRAY(LightNode, light_nodes)                                                                            \

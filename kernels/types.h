@@ -262,12 +262,28 @@ TRIAD_SIZE(MaterialExtensions, 128);
 /* Directional-albedo tables, one float array (host/pack/albedo_tables.h, kernels/shading/albedo.h).
  * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over
  * [0, 1]. Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index
- * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. */
+ * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. Then
+ * stretched GGX reflection: [roughness][strength][azimuth of wo over [0, pi/2]][sqrt(mu)][2] as the first.
+ * Then the white sheen lobe: [roughness from SHEEN_MIN_ROUGHNESS to 1][sqrt(mu)]. */
 #define ALBEDO_SIZE 32
 #define ALBEDO_GLASS_SIZE 16
 #define ALBEDO_GLASS_MAX 0.6f
 #define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
-#define ALBEDO_FLOATS (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+#define ALBEDO_ANISOTROPIC_FIRST \
+    (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+#define ALBEDO_LONG 16
+#define ALBEDO_SHORT 8
+#define ALBEDO_SHEEN_FIRST \
+    (ALBEDO_ANISOTROPIC_FIRST + ALBEDO_LONG * ALBEDO_SHORT * ALBEDO_SHORT * ALBEDO_LONG * 2)
+#define ALBEDO_FLOATS (ALBEDO_SHEEN_FIRST + ALBEDO_SIZE * ALBEDO_SIZE)
+/* Below it fibres would be flat. */
+#define SHEEN_MIN_ROUGHNESS 0.07f
+
+/* Thin films (kernels/shading/thin_film.h): how many reflections within the film are told apart, and the
+ * table of mean cosines: rows of FILM_STEP nm of optical path difference, three channels each. */
+#define FILM_ORDERS 10
+#define FILM_ROWS 2049
+#define FILM_STEP 5.0f
 
 /* ---- Wavelengths (kernels/common/spectrum.h) ---- */
 
@@ -541,7 +557,7 @@ TRIAD_SIZE(PhotonFrame, 72);
 #define BSDF_DIFFUSE 1u
 #define BSDF_GLOSSY 2u
 #define BSDF_DELTA 4u
-#define BSDF_TRANSMIT 8u /* together with GLOSSY or DELTA: wi is beyond the surface */
+#define BSDF_TRANSMIT 8u /* together with one of the others: wi is beyond the surface */
 
 /* Why a path ends at a vertex. */
 #define PATH_GOES_ON 0u

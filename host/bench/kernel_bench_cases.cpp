@@ -24,12 +24,8 @@ kernel void measured(SCENE_PARAMETERS, global const float* in, global float* res
 /// The material of a lobe, by lines that set what is special of it.
 std::string make(const std::string& lines) {
     return R"(
-    BsdfInput input;
-    input.base_colour = vec3_make(IN(0), IN(1), IN(2));
-    input.specular_colour = colour_splat(1.0f);
+    BsdfInput input = bsdf_input_plain(vec3_make(IN(0), IN(1), IN(2)));
     input.roughness = IN(3);
-    input.metallic = 0.0f, input.ior = 1.5f, input.specular = 1.0f, input.transmission = 0.0f;
-    input.solid = input.inside = 0u;
 )" + lines +
            R"(
     const Vec3 wo = vec3_make(IN(4), IN(5), IN(6));
@@ -37,12 +33,12 @@ std::string make(const std::string& lines) {
 )";
 }
 
-const char* const made_diffuse = "    OUT3(0, b.diffuse);\n";
+const char* const made_diffuse = "    OUT3(0, b.base.diffuse);\n";
 const char* const made = R"(
-    OUT3(0, b.diffuse);
-    OUT3(3, b.specular0);
-    OUT3(6, b.specular1);
-    OUT(9, b.p_specular);
+    OUT3(0, b.base.diffuse);
+    OUT3(3, b.base.specular0);
+    OUT3(6, b.base.specular1);
+    OUT(9, b.base.p_specular);
 )";
 const char* const evaluated = R"(
     float pdf;

@@ -27,6 +27,23 @@ void samples_follow_the_pdf(Check& check) {
         {.roughness = 0.6f, .transmission = 1, .solid = 1, .inside = 1},
         {.roughness = 1, .ior = 2.2f, .transmission = 0.8f, .solid = 1},
         {.roughness = 1, .ior = 2.2f, .transmission = 1, .solid = 1, .inside = 1},
+        {.roughness = 0.6f, .coat = 0.8f, .coat_roughness = 0.5f, .coat_tilt = 0.3f},
+        {.specular = 0, .sheen = 1, .sheen_roughness = 0.4f},
+        {.metallic = 1, .roughness = 0.5f, .anisotropy = 0.8f, .azimuth = 0.1f},
+        {.metallic = 1, .roughness = 0.5f, .film = 1},
+        {.roughness = 0.5f, .through = 0.6f},
+        {.base = {0.5f, 0.5f, 0.5f},
+         .roughness = 0.6f,
+         .transmission = 0.5f,
+         .solid = 1,
+         .inside = 1,
+         .coat = 0.5f,
+         .coat_roughness = 0.5f,
+         .sheen = 0.5f,
+         .anisotropy = 0.6f,
+         .azimuth = 0.1f,
+         .film = 0.7f,
+         .through = 0.4f},
     };
     for (std::size_t m = few ? 2 : 0; m < materials.size(); m += few ? 3 : 1)
         for (float mu : few ? std::vector{0.6f} : std::vector{1.0f, 0.6f, 0.15f}) {

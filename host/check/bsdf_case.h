@@ -7,6 +7,7 @@
 #include "check/kernels.h"
 #include "check/measurements.h"
 #include "pack/albedo_tables.h"
+#include "pack/pack.h"
 
 namespace triad::bsdf_case {
 
@@ -17,30 +18,60 @@ struct Case {
     float specular_colour[3] = {1, 1, 1};
     float transmission = 0, solid = 0, inside = 0;
     float mu = 1;
-    float u_lobe = 0, u = 0, v = 0;  // used by `once`
-    float unused[3] = {};
+    float u_lobe = 0, u = 0, v = 0;                     // used by `once`
+    float coat = 0, coat_roughness = 0, coat_tilt = 0;  // radians from z towards x
+    float sheen = 0, sheen_roughness = 0.5f;            // white
+    float anisotropy = 0, azimuth = 0;                  // of wo, in turns
+    float film = 0, film_ior = 1.3f, film_thickness = 400;
+    float through = 0;  // white
 };
-static_assert(sizeof(Case) == 80);
+static_assert(sizeof(Case) == 112);
 
 inline const char* const source = R"(#include "common/random.h"
 #include "shading/bsdf.h"
 typedef struct Case {
-    float base[3], metallic, roughness, ior, specular, specular_colour[3], transmission, solid, inside, mu, u_lobe, u, v, unused[3];
+    float base[3], metallic, roughness, ior, specular, specular_colour[3], transmission, solid, inside, mu, u_lobe, u, v,
+        coat, coat_roughness, coat_tilt, sheen, sheen_roughness, anisotropy, azimuth, film, film_ior, film_thickness, through;
 } Case;
-TRIAD_FUNCTION Vec3 make(const global Case* c, Bsdf* b, global const float* tables) {
-    BsdfInput in;
+TRIAD_FUNCTION BsdfInput input_of(const global Case* c, global const float* tables) {
+    (void)tables;
+    BsdfInput in = bsdf_input_plain(vec3_splat(1.0f));
     in.base_colour = VEC3_OF(c->base);
     in.metallic = c->metallic, in.roughness = c->roughness, in.ior = c->ior, in.specular = c->specular;
     in.specular_colour = VEC3_OF(c->specular_colour);
     in.transmission = c->transmission, in.solid = c->solid > 0.0f, in.inside = c->inside > 0.0f;
-    const Vec3 wo = vec3_make(sqrt((1.0f - c->mu) * (1.0f + c->mu)), 0.0f, c->mu);
+#if TRIAD_CLEARCOAT
+    in.coat = c->coat, in.coat_roughness = c->coat_roughness;
+    in.coat_normal = vec3_make(math_sin(c->coat_tilt), 0.0f, math_cos(c->coat_tilt));
+#endif
+#if TRIAD_SHEEN
+    in.sheen = colour_splat(c->sheen), in.sheen_roughness = c->sheen_roughness;
+#endif
+#if BSDF_STRETCHED
+    in.anisotropy = c->anisotropy;
+#endif
+#if BSDF_FILM
+    in.film = c->film, in.film_input.ior = c->film_ior, in.film_input.thickness = c->film_thickness;
+    in.film_input.responses = tables + ALBEDO_FLOATS;
+#endif
+#if TRIAD_DIFFUSE_TRANSMISSION
+    in.through = c->through, in.through_colour = colour_splat(1.0f);
+#endif
+    return in;
+}
+TRIAD_FUNCTION Vec3 make(const global Case* c, Bsdf* b, global const float* tables) {
+    const BsdfInput in = input_of(c, tables);
+    const float side = sqrt((1.0f - c->mu) * (1.0f + c->mu));
+    float sine, cosine;
+    math_sincos_turns(c->azimuth, &sine, &cosine);
+    const Vec3 wo = vec3_make(side * cosine, side * sine, c->mu);
     *b = bsdf_make(&in, wo, tables);
     return wo;
 }
 /* Change of radiance undone: what is left is energy. */
 TRIAD_FUNCTION float energy_scale(const Bsdf* b, uint event) {
 #if BSDF_TRANSMISSION
-    return (event & BSDF_TRANSMIT) && b->transmits ? 1.0f / b->body_scale : 1.0f;
+    return (event & BSDF_TRANSMIT) && !(event & BSDF_DIFFUSE) ? 1.0f / bsdf_body_scale(b) : 1.0f;
 #else
     return 1.0f;
 #endif
@@ -122,16 +153,14 @@ __kernel void reverse(__global Vec2* out, __global const Case* cases, __global c
     if (i >= count) return;
     Bsdf b;
     const Vec3 wo = make(cases + i, &b, tables);
-    b.transmitter = vec3_splat(1.0f);
+    b.base.transmitter = vec3_splat(1.0f);
     const Vec3 wi = bsdf_sample(&b, wo, 0.999f, vec2_make(cases[i].u, cases[i].v)).wi;
     float pdf;
     const float there = wi.z < 0.0f ? bsdf_eval(&b, wo, wi, &pdf).x : 0.0f;
-    BsdfInput in;
-    in.base_colour = in.specular_colour = vec3_splat(1.0f);
-    in.metallic = 0.0f, in.roughness = cases[i].roughness, in.ior = cases[i].ior, in.specular = 1.0f;
-    in.transmission = 1.0f, in.solid = 1u, in.inside = 1u;
+    BsdfInput in = input_of(cases + i, tables);
+    in.inside = 1u;
     Bsdf back = bsdf_make(&in, vec3_negate(wi), tables);
-    back.transmitter = vec3_splat(1.0f);
+    back.base.transmitter = vec3_splat(1.0f);
     const float here = bsdf_eval(&back, vec3_negate(wi), vec3_negate(wo), &pdf).x;
     out[i] = wi.z < 0.0f ? vec2_make(there * in.ior * in.ior / -wi.z, here / wo.z) : vec2_splat(0.0f);
 }
@@ -144,7 +173,13 @@ struct Furnace {
     float r, g, b, transmitted, difference, nans, largest, wrong;
 };
 
-inline Buffer tables(Check& check) { return check.device.upload(albedo_tables()); }
+/// The albedo tables and, behind them, the responses of thin films.
+inline Buffer tables(Check& check) {
+    std::vector<float> all = albedo_tables();
+    const std::vector<float> films = film_responses();
+    all.insert(all.end(), films.begin(), films.end());
+    return check.device.upload(all);
+}
 
 inline std::vector<Furnace> furnace(Check& check, const std::vector<Case>& cases, std::uint32_t samples,
                                     const Options& options = {}) {

@@ -33,7 +33,9 @@ kernel void gather(global const Frame* frame, global const PhotonMap* map, globa
     VertexBsdf v;
     v.frame = frame_make(q.normal);
     v.wo = q.normal;
-    v.bsdf.diffuse = vec3_splat(1.0f);
+    BsdfInput input = bsdf_input_plain(vec3_splat(1.0f));
+    input.specular = 0.0f;
+    v.bsdf = bsdf_make(&input, v.wo, 0);
     vec3_store(photon_gather(&scene, &q, &v), from_grid, i);
     long sums[3] = {0, 0, 0};
     const PhotonMap m = *map;

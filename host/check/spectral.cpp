@@ -30,9 +30,8 @@ __kernel void look_up(__global float* out, __global const float* indices, __glob
 }
 /* The direction after a surface of clear smooth glass, normal on the side that the ray comes from. */
 TRIAD_FUNCTION Vec3 cross_glass(Vec3 direction, Vec3 normal, float eta, int reflect, __global const float* tables) {
-    BsdfInput in;
-    in.base_colour = in.specular_colour = vec3_splat(1.0f);
-    in.metallic = 0.0f, in.roughness = 0.0f, in.specular = 1.0f, in.transmission = 1.0f, in.solid = 1u;
+    BsdfInput in = bsdf_input_plain(vec3_splat(1.0f));
+    in.roughness = 0.0f, in.transmission = 1.0f, in.solid = 1u;
     in.inside = eta < 1.0f;
     in.ior = eta < 1.0f ? 1.0f / eta : eta;
     const ShadingFrame frame = frame_make(normal);

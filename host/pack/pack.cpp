@@ -12,6 +12,7 @@ namespace {
 std::shared_ptr<const PackedSurfaces> pack_surfaces(const Scene& scene, const RenderSettings& settings) {
     auto surfaces = std::make_shared<PackedSurfaces>();
     pack_materials(scene, *surfaces);
+    pack_film_responses(scene, *surfaces);
     pack_spectrum(scene, settings, *surfaces);
     pack_environment(scene, settings, *surfaces);
     return surfaces;

@@ -32,6 +32,7 @@ struct PackedSurfaces {
     std::vector<dev::TextureUse> texture_uses;
     std::vector<dev::Texture> textures;
     AlignedVector<std::uint32_t> texels;
+    std::vector<float> film_responses;               ///< where some material is iridescent
     std::vector<float> indices;                      ///< tables of bodies that disperse
     std::vector<dev::Spectrum> spectrum;             ///< before pack_wavelengths()
     std::vector<PackedLightSpectrum> light_spectra;  ///< all different
@@ -155,6 +156,9 @@ LightColour light_colour(const PackedSurfaces& surfaces, const std::optional<Lig
 // Parts of pack(), one file each.
 void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_materials(const Scene& scene, PackedSurfaces& surfaces);
+/// Mean of cos(2 pi D / wavelength) over each channel's response under D65: row i is D = FILM_STEP i nm.
+std::vector<float> film_responses();
+void pack_film_responses(const Scene& scene, PackedSurfaces& surfaces);
 /// After pack_materials().
 void pack_spectrum(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces);
 void pack_environment(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces);

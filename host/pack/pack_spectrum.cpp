@@ -147,6 +147,31 @@ void add_indices(const Dispersion& d, std::vector<float>& indices) {
 
 }  // namespace
 
+std::vector<float> film_responses() {
+    constexpr int parts = 5;  // of a row: cosines of long paths turn within one
+    std::vector<float> responses(3 * FILM_ROWS);
+    for (int row = 0; row < FILM_ROWS; ++row) {
+        dvec3 sum(0.0), whole(0.0);
+        for (int i = 0; i + 1 < spectral_rows; ++i)
+            for (int part = 0; part < parts; ++part) {
+                const double t = (part + 0.5) / parts;
+                const dvec3 response = glm::mix(d65_response(i), d65_response(i + 1), t);
+                const double wavelength = shortest_wavelength + spectral_step * (i + t);
+                sum += response * std::cos(2 * pi * double(FILM_STEP) * row / wavelength);
+                whole += response;
+            }
+        for (int c = 0; c < 3; ++c) responses[std::size_t(3 * row + c)] = float(sum[c] / whole[c]);
+    }
+    return responses;
+}
+
+void pack_film_responses(const Scene& scene, PackedSurfaces& surfaces) {
+    if (std::none_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& m) { return m.iridescence.has_value(); }))
+        return;
+    surfaces.film_responses = film_responses();
+}
+
 void pack_spectrum(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces) {
     bool wavelengths = settings.spectral == Spectral::classic || settings.spectral == Spectral::full;
     for (std::size_t i = 0; i < scene.materials.size() && settings.spectral != Spectral::off; ++i) {

@@ -49,6 +49,7 @@ DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> pack
     share(a.texels, surfaces.texels);
     copy(a.srgb, srgb_table());
     add(a.albedo, device.upload(albedo_tables()));
+    copy(a.film_responses, surfaces.film_responses);
     copy(a.lights, packed_->lights);
     copy(a.light_cdf, packed_->light_cdf);
     copy(a.light_nodes, packed_->light_tree.nodes);

@@ -19,6 +19,17 @@ TRIAD_FUNCTION ShadingFrame frame_make(Vec3 n) {
     f.z = n;
     return f;
 }
+/* The same with x along the part of v that is across n, where there is one. */
+TRIAD_FUNCTION ShadingFrame frame_make_along(Vec3 n, Vec3 v) {
+    ShadingFrame f = frame_make(n);
+    const Vec3 across = vec3_add_scaled(v, n, -vec3_dot(v, n));
+    const float l2 = vec3_dot(across, across);
+    if (l2 > 1e-12f) {
+        f.x = vec3_scale(across, 1.0f / sqrt(l2));
+        f.y = vec3_cross(n, f.x);
+    }
+    return f;
+}
 TRIAD_FUNCTION Vec3 frame_to_local(const ShadingFrame* f, Vec3 v) {
     return vec3_make(vec3_dot(v, f->x), vec3_dot(v, f->y), vec3_dot(v, f->z));
 }

@@ -31,6 +31,14 @@ TRIAD_FUNCTION Vec2 sampling_triangle(Vec2 u) {
                      : vec2_make(fma(-0.5f, u.y, u.x), u.y * 0.5f);
 }
 
+/* The half sphere about z: pdf 1 / (2 pi). z > 0. */
+TRIAD_FUNCTION Vec3 sampling_hemisphere(Vec2 u) {
+    float z = 1.0f - u.x, s, c;
+    float r = sqrt(u.x * (1.0f + z));
+    math_sincos_turns(u.y, &s, &c);
+    return vec3_make(r * c, r * s, z);
+}
+
 /* Whole sphere: pdf 1 / (4 pi). */
 TRIAD_FUNCTION Vec3 sampling_sphere(Vec2 u) {
     float t = 2.0f * u.x; /* 1 - z, in [0, 2) */

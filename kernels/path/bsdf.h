@@ -12,7 +12,7 @@ TRIAD_FUNCTION VertexBsdf path_bsdf(const Scene* scene, PathState* path, Vertex*
 #if PATH_EACH
     vertex->each =
         vertex_disperses(scene, &vertex->surface, &vertex->around) && path_has_others(&path->colours);
-    if (vertex->each && v.bsdf.smooth) {
+    if (vertex->each && bsdf_is_smooth(&v.bsdf)) {
         path_end_others(&path->colours, &path->throughput);
         vertex->each = 0;
     }

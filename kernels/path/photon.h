@@ -130,7 +130,8 @@ TRIAD_FUNCTION int photon_scatter(const Scene* scene, PathState* path, const Ver
             vec3_scale(path->throughput, photon_tilt(v->wo.z, vec3_dot(vertex->wo, vertex->ng)) /
                                              photon_tilt(scatter->sample.wi.z, scatter->side));
 #if BSDF_TRANSMISSION
-        if (event & BSDF_TRANSMIT) path->throughput = vec3_scale(path->throughput, 1.0f / v->bsdf.body_scale);
+        if ((event & BSDF_TRANSMIT) && !(event & BSDF_DIFFUSE))
+            path->throughput = vec3_scale(path->throughput, 1.0f / bsdf_body_scale(&v->bsdf));
 #endif
     } else if (everywhere) {
         const Vec3 value = photon_bsdf(scene, &vertex->surface, vertex->wo, scatter->direction,

@@ -32,7 +32,7 @@ TRIAD_FUNCTION void scatter_bodies(PathState* path, const Vertex* vertex, uint e
 }
 
 TRIAD_FUNCTION uint scatter_traits(uint traits, uint edge, uint event) {
-    if (!(event & BSDF_TRANSMIT)) traits &= ~PATH_STRAIGHT;
+    if (!(event & BSDF_TRANSMIT) || (event & BSDF_DIFFUSE)) traits &= ~PATH_STRAIGHT;
     if (!(event & BSDF_DELTA)) traits &= ~PATH_SPECULAR;
 #if TRIAD_PHOTONS
     const int delta = (event & BSDF_DELTA) != 0u,
@@ -68,7 +68,7 @@ TRIAD_FUNCTION int path_scatter(const Scene* scene, PathState* path, const Verte
 #endif
     path->throughput = colour_mul(path->throughput, weight);
 #if BSDF_TRANSMISSION
-    if (event & BSDF_TRANSMIT) path->body_scale *= v->bsdf.body_scale;
+    if ((event & BSDF_TRANSMIT) && !(event & BSDF_DIFFUSE)) path->body_scale *= bsdf_body_scale(&v->bsdf);
 #endif
     scatter_bodies(path, vertex, event);
     path->pdf = (event & BSDF_DELTA) ? 0.0f : density;

@@ -29,6 +29,15 @@ TRIAD_FUNCTION Vertex path_look(const Scene* scene, const PathState* path, const
 #if TRIAD_HERO
     v.surface.base_values = path_colour(&path->colours, v.surface.base_colour);
     v.surface.specular_values = path_colour(&path->colours, v.surface.specular_colour);
+#if TRIAD_SHEEN
+    v.surface.sheen_values = path_colour(&path->colours, v.surface.sheen);
+#endif
+#if TRIAD_DIFFUSE_TRANSMISSION
+    v.surface.through_values = path_colour(&path->colours, v.surface.through_colour);
+#endif
+#if TRIAD_IRIDESCENCE
+    v.surface.wavelengths = path_wavelengths(&path->colours);
+#endif
 #endif
     v.wo = vec3_negate(path_direction(path));
     v.back = vec3_dot(v.wo, v.surface.geometric_normal) < 0.0f;
@@ -65,6 +74,9 @@ TRIAD_FUNCTION void path_face(const Scene* scene, PathState* path, const Vertex*
     if (scene->materials[v->surface.material].transmission > 0.0f) path->normal = vec3_splat(0.0f);
 #else
     (void)scene;
+#endif
+#if TRIAD_DIFFUSE_TRANSMISSION
+    if (v->surface.through > 0.0f) path->normal = vec3_splat(0.0f);
 #endif
 #else
     (void)scene, (void)path, (void)v;

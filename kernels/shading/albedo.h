@@ -39,4 +39,39 @@ TRIAD_FUNCTION Vec2 albedo_glass(global const float* tables, float root_mu, floa
     return vec2_mix(lo, hi, tz);
 }
 
+#if TRIAD_ANISOTROPY
+/* (E, B) as albedo_ggx, of GGX with alpha roughness^2 along y and mix(alpha, 1, strength^2) along x; wo in
+ * that frame. */
+TRIAD_FUNCTION Vec2 albedo_anisotropic(global const float* tables, float root_mu, Vec3 wo, float roughness,
+                                       float strength) {
+    const float x = fabs(wo.x), y = fabs(wo.y);
+    const float turn = x + y > 0.0f ? math_atan2(y, x) * (2.0f * MATH_INV_PI) : 0.0f;
+    float tr, ts, tp, tm;
+    const uint r = albedo_node(roughness, ALBEDO_LONG, &tr), s = albedo_node(strength, ALBEDO_SHORT, &ts),
+               p = albedo_node(turn, ALBEDO_SHORT, &tp), m = albedo_node(root_mu, ALBEDO_LONG, &tm);
+    global const float* table = tables + ALBEDO_ANISOTROPIC_FIRST;
+    Vec2 value = vec2_make(0.0f, 0.0f);
+    for (uint k = 0u; k < 4u; ++k) {
+        const uint upper_r = k & 1u, upper_s = k >> 1;
+        const uint plane = (r + upper_r) * ALBEDO_SHORT + s + upper_s;
+        const float weight = (upper_r ? tr : 1.0f - tr) * (upper_s ? ts : 1.0f - ts);
+        global const float* square = table + plane * (ALBEDO_SHORT * ALBEDO_LONG * 2u);
+        value = vec2_add(value, vec2_scale(albedo_bilinear(square, ALBEDO_LONG, p, m, tp, tm), weight));
+    }
+    return value;
+}
+#endif
+
+#if TRIAD_SHEEN
+/* Of the white sheen lobe. */
+TRIAD_FUNCTION float albedo_sheen(global const float* tables, float root_mu, float roughness) {
+    float ty, tx;
+    const uint row = albedo_node((roughness - SHEEN_MIN_ROUGHNESS) / (1.0f - SHEEN_MIN_ROUGHNESS),
+                                 ALBEDO_SIZE, &ty),
+               column = albedo_node(root_mu, ALBEDO_SIZE, &tx);
+    global const float* p = tables + ALBEDO_SHEEN_FIRST + row * ALBEDO_SIZE + column;
+    return math_mix(math_mix(p[0], p[1], tx), math_mix(p[ALBEDO_SIZE], p[ALBEDO_SIZE + 1], tx), ty);
+}
+#endif
+
 #endif

@@ -1,348 +1,166 @@
-/* The glTF material: mix(dielectric, metal), where a dielectric is a coated diffuse base or, by
- * `transmission`, a thin wall or the boundary of a solid body. Formulas, sources and what is not reciprocal:
+/* The glTF material: a varnish (clearcoat) over fibres (sheen) over its core (shading/base_bsdf.h). A layer
+ * lets through to what is below it what it does not reflect itself, by its albedo as seen from wo: no light
+ * is made, and in a white furnace none is lost. Formulas, sources and what is not reciprocal:
  * docs/shading.md.
  *
  * Local frame: +z is the shading normal on wo's side (wo.z > 0); wi.z < 0 is beyond the surface. All
  * directions point away from the surface. f is the BSDF, values are f |cos wi|; pdfs are per solid angle.
  * Radiance crossing into a body of index n changes by 1 / n^2 per the way of the path (Walter et al. 2007),
- * and back on leaving it: bsdf.body_scale.
+ * and back on leaving it: bsdf_body_scale().
  */
 #ifndef TRIAD_SHADING_BSDF_H
 #define TRIAD_SHADING_BSDF_H
 
-#include "common/colour.h"
-#include "common/sampling.h"
-#include "shading/albedo.h"
-#include "shading/fresnel.h"
-#include "shading/ggx.h"
-
-/* Share of the transmitting part that is sampled even where it looks black from wo. */
-#define BSDF_MIN_TRANSMITTER 0.1f
-
-/* Whatever transmits also reflects. */
-#define BSDF_TRANSMISSION (TRIAD_SPECULAR && TRIAD_TRANSMISSION)
-
-typedef struct BsdfInput {
-    Colour base_colour;
-    float metallic, roughness, ior, specular;
-    Colour specular_colour;
-    float transmission;
-    uint solid;  /* refracts: a closed body */
-    uint inside; /* wo is on the inner side of a solid body */
-} BsdfInput;
+#include "shading/base_bsdf.h"
+#include "shading/clearcoat.h"
+#include "shading/sheen.h"
 
 /* A material seen from one wo. */
 typedef struct Bsdf {
-    Colour diffuse; /* albedo of the Lambert lobe */
-#if TRIAD_SPECULAR
-    Colour specular0, specular1; /* reflection of metal and coat: specular0 + specular1 (1 - wo.h)^5 */
-    float alpha;
-    float stretch;    /* ggx_stretch of wo */
-    float cap;        /* ggx_cap of wo; 1: normals are not bounded */
-    float p_specular; /* probability of sampling the microfacets and not the Lambert lobe */
-    uint smooth;      /* the microfacets are one mirror: delta lobes */
+    BaseBsdf base;
+#if BSDF_LAYERED
+    float base_weight; /* what the layers let through */
+    float p_base;      /* probability of sampling the base */
 #endif
-#if BSDF_TRANSMISSION
-    uint transmits;
-    uint solid;
-    float eta;                 /* index beyond the surface over index before it */
-    float body_scale;          /* of radiance that crosses: 1 / eta^2 of a solid body, else 1 */
-    Colour fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
-    Colour transmitter;        /* its weight, energy compensation included */
-    Colour tint;
-    float p_cap; /* of a transmitter: probability that the normal is drawn within the cap */
+#if TRIAD_SHEEN
+    SheenLobe sheen;
+    float p_sheen;
+#endif
+#if TRIAD_CLEARCOAT
+    CoatLobe coat;
+    float sheen_weight; /* what the coat lets through */
+    float p_coat;
 #endif
 } Bsdf;
 
-typedef struct BsdfSample {
-    Vec3 wi;
-    Colour weight; /* f |cos| / pdf */
-    float pdf;     /* solid angle, over all lobes; 0 for a delta lobe */
-    uint event;    /* BSDF_* bits; BSDF_NONE: absorbed */
-} BsdfSample;
-
-#if BSDF_TRANSMISSION
-/* Fresnel factor of the transmitting part, c the cosine on wo's side. */
-TRIAD_FUNCTION Colour bsdf_transmitter_fresnel(const Bsdf* b, float c) {
-    float r = fresnel_dielectric(c, b->eta);
-    if (r >= 1.0f) return colour_splat(1.0f);
-    Colour f = colour_fma_scale(r, b->fresnel1, b->fresnel0);
-    /* Brewster's dip goes below normal incidence */
-    f = colour_at_least(f, colour_splat(0.0f));
-    /* both faces of a thin wall and all reflections between them: R = 2F / (1 + F), T = (1 - F) / (1 + F) */
-    return b->solid ? f : colour_div(colour_scale(f, 2.0f), colour_add(colour_splat(1.0f), f));
-}
-#endif
-
-#if TRIAD_SPECULAR
-/* What a microfacet reflects and lets through (change of radiance not included) at wo.h = c. */
-TRIAD_FUNCTION void bsdf_microfacet(const Bsdf* b, float c, Colour* reflected, Colour* transmitted) {
-    *reflected = colour_fma_scale(fresnel_schlick_weight(c), b->specular1, b->specular0);
-    *transmitted = colour_splat(0.0f);
-#if BSDF_TRANSMISSION
-    if (b->transmits) {
-        Colour f = bsdf_transmitter_fresnel(b, c);
-        *reflected = colour_add(*reflected, colour_mul(b->transmitter, f));
-        *transmitted = colour_mul(colour_mul(b->transmitter, b->tint), colour_complement(f));
-    }
-#endif
-}
-
-/* Probability of choosing reflection at such a microfacet; negative when it is black. */
-TRIAD_FUNCTION float bsdf_reflect_probability(const Bsdf* b, Colour reflected, Colour transmitted) {
-#if BSDF_TRANSMISSION
-    if (b->transmits) {
-        float r = colour_average(reflected), t = colour_average(transmitted);
-        return r + t > 0.0f ? r / (r + t) : -1.0f;
-    }
-#else
-    (void)b, (void)reflected, (void)transmitted;
-#endif
-    return 1.0f;
-}
-#endif
-
-#if BSDF_TRANSMISSION
-/* Of the density of a transmitter's normals h, the factor that a cap changes: 1 / (z + s) without one. */
-TRIAD_FUNCTION float bsdf_cap_factor(const Bsdf* b, float z_o, uint in_cap) {
-    float bounded = in_cap ? b->p_cap / fma(b->cap, z_o, b->stretch) : 0.0f;
-    return bounded + (1.0f - b->p_cap) / (z_o + b->stretch);
-}
-#endif
-
-/* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission in [0, 1], ior 0 or at least 1. */
+/* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission, shares in [0, 1], ior 0 or at
+ * least 1. */
 TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
     Bsdf b;
-#if !TRIAD_SPECULAR
-    (void)wo, (void)albedo_tables;
-    b.diffuse = in->base_colour;
-#else
-    float f0 = fresnel_normal(in->ior);
-    Colour coat0 =
-        colour_scale(colour_at_most(colour_scale(in->specular_colour, f0), colour_splat(1.0f)), in->specular);
-    Colour coat90 = colour_splat(in->specular);
-    float dielectric = 1.0f - in->metallic;
-    float opaque = dielectric;
-    b.alpha = math_square(in->roughness);
-    b.smooth = b.alpha < BSDF_SMOOTH_ALPHA;
-#if BSDF_TRANSMISSION
-    float transmitter = in->ior >= 1.0f && f0 < 1.0f ? dielectric * in->transmission : 0.0f;
-    opaque = dielectric - transmitter;
-    b.transmits = transmitter > 0.0f;
-    b.solid = in->solid;
-    if (b.transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b.smooth = 1u;
+    b.base = base_make(in, wo, albedo_tables);
+#if BSDF_LAYERED
+    float weight = 1.0f, above = 0.0f;
+#if TRIAD_CLEARCOAT
+    b.coat = coat_make(in, wo, albedo_tables);
+    weight -= b.coat.albedo;
+    b.sheen_weight = weight;
+    b.p_coat = b.coat.albedo;
+    above += b.p_coat;
 #endif
-    uint lambert = in->metallic == 0.0f && in->specular == 0.0f;
-#if BSDF_TRANSMISSION
-    lambert = lambert && !b.transmits;
+#if TRIAD_SHEEN
+    b.sheen = sheen_make(in, wo, albedo_tables);
+    b.p_sheen = weight * colour_average(b.sheen.colour) * b.sheen.albedo;
+    above += b.p_sheen;
+    weight *= math_max(0.0f, 1.0f - colour_largest(b.sheen.colour) * b.sheen.albedo);
 #endif
-    if (lambert) { /* what follows would come to the same bits */
-        b.diffuse = colour_scale(in->base_colour, opaque);
-        b.specular0 = b.specular1 = colour_splat(0.0f);
-        b.p_specular = 0.0f;
-        return b;
+    b.base_weight = weight;
+    b.p_base = 1.0f;
+    if (above > 0.0f) {
+        float inverse = 1.0f / fma(weight, b.base.albedo, above);
+#if TRIAD_CLEARCOAT
+        b.p_coat *= inverse;
+#endif
+#if TRIAD_SHEEN
+        b.p_sheen *= inverse;
+#endif
+        b.p_base = math_max(0.0f, 1.0f - above * inverse);
     }
-    /* directional albedo of GGX reflection, Fresnel factor 1 and (1 - cos)^5 */
-    Vec2 albedo = vec2_make(1.0f, fresnel_schlick_weight(wo.z));
-    float root_mu = sqrt(wo.z);
-    if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
-    float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
-
-    Colour metal0 = in->base_colour;
-    Colour metal = colour_scale(colour_fma_scale(missing, metal0, colour_splat(1.0f)), in->metallic);
-    Colour coat = colour_fma_scale(missing, coat0, colour_splat(1.0f));
-    Colour opaque_coat = colour_scale(coat, opaque), coat_rise = colour_sub(coat90, coat0);
-    b.specular0 = colour_fma(metal, metal0, colour_mul(opaque_coat, coat0));
-    b.specular1 = colour_fma(metal, colour_complement(metal0), colour_mul(opaque_coat, coat_rise));
-    Colour coat_albedo =
-        colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
-    b.diffuse = colour_scale(in->base_colour, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
-
-    b.stretch = ggx_stretch(wo, b.alpha);
-    float p = colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
-    uint bounded = !b.smooth;
-#if BSDF_TRANSMISSION
-    b.p_cap = 0.0f;
-    if (b.transmits) {
-        bounded = 0u;
-        b.fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
-        b.fresnel0 = colour_fma_scale(-f0, b.fresnel1, coat0);
-        b.tint = in->base_colour;
-        b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
-        b.body_scale = in->solid ? 1.0f / (b.eta * b.eta) : 1.0f;
-        b.transmitter = colour_splat(transmitter);
-        if (!b.smooth) {
-            Colour kept = colour_splat(albedo.x);
-            if (in->solid) {
-                Vec2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
-                Colour lost = colour_sub(colour_complement(b.fresnel0), b.fresnel1);
-                kept = colour_add(
-                    colour_add(colour_scale(b.fresnel0, albedo.x), colour_scale(b.fresnel1, glass.x)),
-                    colour_scale(lost, glass.y));
-            }
-            b.transmitter = colour_div(colour_splat(transmitter), kept);
-            /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
-             * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
-            if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - colour_average(kept));
-            bounded = b.p_cap > 0.0f;
-        }
-        Colour f = bsdf_transmitter_fresnel(&b, wo.z);
-        Colour seen = colour_add(f, colour_mul(colour_complement(f), b.tint));
-        p += transmitter * math_max(colour_average(seen), BSDF_MIN_TRANSMITTER);
-    }
-#endif
-    b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;
-    float d = colour_average(b.diffuse);
-    b.p_specular = p > 0.0f ? (d > 0.0f ? p / (p + d) : 1.0f) : 0.0f;
 #endif
     return b;
 }
 
+/* Factor of radiance that crosses into, or out of, a solid body. */
+TRIAD_FUNCTION float bsdf_body_scale(const Bsdf* b) {
+#if BSDF_TRANSMISSION
+    return b->base.body_scale;
+#else
+    (void)b;
+    return 1.0f;
+#endif
+}
+
+/* Nonzero when the material is one mirror or clear boundary: delta lobes alone. */
+TRIAD_FUNCTION uint bsdf_is_smooth(const Bsdf* b) {
+#if TRIAD_SPECULAR
+    return b->base.smooth;
+#else
+    (void)b;
+    return 0u;
+#endif
+}
+
 /* Nonzero when bsdf_eval can be: else there is no point in sampling lights. */
 TRIAD_FUNCTION uint bsdf_has_smooth(const Bsdf* b) {
-    uint lit = colour_largest(b->diffuse) > 0.0f;
-#if TRIAD_SPECULAR
-    lit = lit || (b->p_specular > 0.0f && !b->smooth);
+    uint lit = base_has_smooth(&b->base);
+#if TRIAD_CLEARCOAT
+    lit = lit || b->p_coat > 0.0f;
+#endif
+#if TRIAD_SHEEN
+    lit = lit || b->p_sheen > 0.0f;
 #endif
     return lit;
 }
 
-#if TRIAD_SPECULAR
-/* Adds the microfacets' f |cos| and pdf; wi.z != 0. */
-TRIAD_FUNCTION void bsdf_eval_microfacets(const Bsdf* b, Vec3 wo, Vec3 wi, Colour* f, float* pdf) {
-    Colour reflected, transmitted;
-#if BSDF_TRANSMISSION
-    if (wi.z < 0.0f) {
-        Vec3 w = b->solid ? wi : vec3_make(wi.x, wi.y, -wi.z);
-        float eta = b->solid ? b->eta : 1.0f;
-        Vec3 h = vec3_fma_scale(eta, w, wo);
-        float l2 = vec3_dot(h, h);
-        if (!(l2 > 0.0f)) return;
-        h = vec3_scale(h, (h.z < 0.0f ? -1.0f : 1.0f) / sqrt(l2));
-        float wo_h = vec3_dot(wo, h), wi_h = vec3_dot(w, h);
-        if (wo_h <= 0.0f || (b->solid && wi_h >= 0.0f)) return;
-        bsdf_microfacet(b, wo_h, &reflected, &transmitted);
-        float reflect = bsdf_reflect_probability(b, reflected, transmitted);
-        if (reflect < 0.0f) return;
-        float d = ggx_distribution(h, b->alpha);
-        /* |d omega_h / d omega_i|: Walter et al. 2007 eq. 17; a thin wall mirrors the reflection */
-        float jacobian = b->solid ? eta * eta * -wi_h / l2 : 1.0f / (4.0f * wo_h);
-        float masking = ggx_masking(wo.z, b->stretch, -wi.z, ggx_stretch(wi, b->alpha));
-        *f = colour_add(*f, colour_scale(transmitted, b->body_scale * wo_h * jacobian * d * masking));
-        /* a normal of ggx_sample within the cap */
-        float a2 = b->alpha * b->alpha;
-        uint in_cap =
-            2.0f * wo_h * h.z * a2 >= (1.0f - b->cap) * wo.z * fma(a2, h.z * h.z, fma(h.x, h.x, h.y * h.y));
-        *pdf +=
-            b->p_specular * (1.0f - reflect) * jacobian * 2.0f * d * wo_h * bsdf_cap_factor(b, wo.z, in_cap);
-        return;
-    }
-#endif
-    Vec3 h = vec3_add(wo, wi);
-    float c = 0.5f * vec3_length(h); /* |wo + wi| = 2 wo.h */
-    if (!(c > 0.0f)) return;         /* both in the plane, opposite */
-    bsdf_microfacet(b, c, &reflected, &transmitted);
-    float reflect = bsdf_reflect_probability(b, reflected, transmitted);
-    if (reflect < 0.0f) return;
-    float d = ggx_distribution(h, b->alpha);
-    float masking = ggx_masking(wo.z, b->stretch, wi.z, ggx_stretch(wi, b->alpha));
-    *f = colour_add(*f, colour_scale(reflected, 0.25f * d * masking));
-#if BSDF_TRANSMISSION
-    if (b->transmits) {
-        *pdf += b->p_specular * reflect * 0.5f * d * bsdf_cap_factor(b, wo.z, 1u);
-        return;
-    }
-#endif
-    *pdf += b->p_specular * reflect * ggx_reflection_pdf(d, wo.z, b->stretch, b->cap);
-}
-#endif
-
 /* f |cos wi| and its pdf over all lobes; delta lobes excluded. */
-TRIAD_FUNCTION_PER_CALL Colour bsdf_eval(const Bsdf* b, Vec3 wo, Vec3 wi, float* pdf) {
-    Colour f = colour_splat(0.0f);
-    *pdf = 0.0f;
-    if (wi.z > 0.0f) {
-        float lambert = wi.z * MATH_INV_PI;
-        f = colour_scale(b->diffuse, lambert);
-        *pdf = lambert;
-    }
-#if TRIAD_SPECULAR
-    if (b->p_specular > 0.0f) {
-        *pdf *= 1.0f - b->p_specular;
-        uint lit = wi.z > 0.0f;
-#if BSDF_TRANSMISSION
-        lit = lit || (b->transmits && wi.z < 0.0f);
+TRIAD_FUNCTION Colour bsdf_eval(const Bsdf* b, Vec3 wo, Vec3 wi, float* pdf) {
+    Colour f = base_eval(&b->base, wo, wi, pdf);
+#if BSDF_LAYERED
+    f = colour_scale(f, b->base_weight);
+    *pdf *= b->p_base;
 #endif
-        if (lit && !b->smooth) bsdf_eval_microfacets(b, wo, wi, &f, pdf);
+#if TRIAD_SHEEN
+    if (b->p_sheen > 0.0f && wi.z > 0.0f) {
+        float value = sheen_eval(&b->sheen, wo, wi);
+#if TRIAD_CLEARCOAT
+        value *= b->sheen_weight;
+#endif
+        f = colour_fma_scale(value, b->sheen.colour, f);
+        *pdf = fma(b->p_sheen, 0.5f * MATH_INV_PI, *pdf);
     }
-#else
-    (void)wo;
+#endif
+#if TRIAD_CLEARCOAT
+    if (b->p_coat > 0.0f && wi.z > 0.0f) {
+        float coat_pdf;
+        f = colour_add(f, colour_splat(coat_eval(&b->coat, wo, wi, &coat_pdf)));
+        *pdf = fma(b->p_coat, coat_pdf, *pdf);
+    }
 #endif
     return f;
 }
 
 /* One sample: u_lobe picks the lobe, u the direction; all in [0, 1). */
 TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2 u) {
+#if !BSDF_LAYERED
+    return base_sample(&b->base, wo, u_lobe, u);
+#else
     BsdfSample s;
-    s.wi = vec3_make(0.0f, 0.0f, 1.0f);
-    s.weight = colour_splat(0.0f);
-    s.pdf = 0.0f;
-    s.event = BSDF_NONE;
-#if TRIAD_SPECULAR
-    if (u_lobe < b->p_specular) {
-        float cap = b->cap;
-        Vec2 point = u;
-#if BSDF_TRANSMISSION
-        if (b->p_cap > 0.0f) {
-            uint bounded = u.y < b->p_cap;
-            point.y = bounded ? u.y / b->p_cap : (u.y - b->p_cap) / (1.0f - b->p_cap);
-            point.y = math_min(point.y, 0x1.fffffep-1f);
-            cap = bounded ? cap : 1.0f;
-        }
-#endif
-        Vec3 h = b->smooth ? vec3_make(0.0f, 0.0f, 1.0f) : ggx_sample(wo, b->alpha, b->stretch, cap, point);
-        float c = b->smooth ? wo.z : math_min(vec3_dot(wo, h), 1.0f);
-        Colour reflected, transmitted;
-        bsdf_microfacet(b, c, &reflected, &transmitted);
-        float reflect = bsdf_reflect_probability(b, reflected, transmitted);
-        if (c <= 0.0f || reflect < 0.0f) return s;
-        uint through = 0u;
-#if BSDF_TRANSMISSION
-        through = b->transmits && u_lobe >= reflect * b->p_specular;
-        if (through && b->solid) {
-            s.wi = vec3_fma_scale(c / b->eta - fresnel_refracted_cosine(c, b->eta), h,
-                                  vec3_scale(wo, -1.0f / b->eta));
-            if (b->eta == 1.0f) s.wi = vec3_negate(wo);
-        } else
-#endif
-        {
-            s.wi = vec3_reflect(wo, h);
-            if (through) s.wi.z = -s.wi.z;
-        }
-        if (through ? s.wi.z >= 0.0f : s.wi.z <= 0.0f) return s; /* single scattering ends in the surface */
-        s.event = (b->smooth ? BSDF_DELTA : BSDF_GLOSSY) | (through ? BSDF_TRANSMIT : 0u);
-        if (b->smooth) {
-            float p = b->p_specular * (through ? 1.0f - reflect : reflect);
-            s.weight = colour_div(through ? transmitted : reflected, colour_splat(p));
-#if BSDF_TRANSMISSION
-            if (through) s.weight = colour_scale(s.weight, b->body_scale);
-#endif
+    if (u_lobe < b->p_base) {
+        s = base_sample(&b->base, wo, u_lobe / b->p_base, u);
+        if (b->p_base == 1.0f || s.event == BSDF_NONE) return s;
+        if (s.event & BSDF_DELTA) {
+            s.weight = colour_scale(s.weight, b->base_weight / b->p_base);
             return s;
         }
-        s.wi = vec3_normalize(s.wi);
-    } else
-#endif
-    {
-        s.wi = sampling_cosine(u);
-        s.event = BSDF_DIFFUSE;
-#if TRIAD_SPECULAR
-        if (!(b->p_specular > 0.0f))
+    } else {
+        s.event = BSDF_GLOSSY;
+        s.weight = colour_splat(0.0f);
+        s.pdf = 0.0f;
+#if TRIAD_CLEARCOAT && TRIAD_SHEEN
+        uint coat = u_lobe - b->p_base >= b->p_sheen;
 #else
-        (void)u_lobe;
+        uint coat = TRIAD_CLEARCOAT;
 #endif
-        { /* nothing but Lambert */
-            s.weight = b->diffuse;
-            s.pdf = sampling_cosine_pdf(s.wi.z);
+#if TRIAD_CLEARCOAT
+        if (coat) s.wi = coat_sample(&b->coat, wo, u);
+#endif
+#if TRIAD_SHEEN
+        if (!coat) {
+            s.wi = sampling_hemisphere(u);
+            s.event = BSDF_DIFFUSE;
+        }
+#endif
+        if (s.wi.z <= 0.0f) {
+            s.event = BSDF_NONE;
             return s;
         }
     }
@@ -353,6 +171,7 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2
     }
     s.weight = colour_div(f, colour_splat(s.pdf));
     return s;
+#endif
 }
 
 #endif

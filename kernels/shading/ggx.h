@@ -1,5 +1,6 @@
 /* The GGX microfacet distribution (Walter et al. 2007) with height-correlated Smith masking (Heitz 2014), in
- * a local frame whose +z is the surface normal; isotropic. alpha = roughness^2, 1e-4 <= alpha <= 1.
+ * a local frame whose +z is the surface normal. alpha = roughness^2, 1e-4 <= alpha <= 1; functions that end
+ * in _xy take one along x and one along y (the others would lose digits by it, or time).
  *
  * With s(w) = sqrt(alpha^2 (x^2 + y^2) + z^2) = |z| (1 + 2 Lambda(w)), every masking term is a ratio of sums
  * without cancellation: G1(w) = 2 z / (z + s), G2(o, i) = 2 z_o z_i / (z_i s_o + z_o s_i).
@@ -22,8 +23,19 @@ TRIAD_FUNCTION float ggx_stretch(Vec3 w, float alpha) {
     return sqrt(fma(alpha * alpha, fma(w.x, w.x, w.y * w.y), w.z * w.z));
 }
 
+TRIAD_FUNCTION float ggx_distribution_xy(Vec3 h, float alpha_x, float alpha_y) {
+    float x = h.x * alpha_y, y = h.y * alpha_x, product = alpha_x * alpha_y;
+    float z2 = h.z * h.z, l2 = fma(h.x, h.x, fma(h.y, h.y, z2));
+    float q = l2 * product / fma(x, x, fma(y, y, product * product * z2));
+    return q * q * product * MATH_INV_PI;
+}
+TRIAD_FUNCTION float ggx_stretch_xy(Vec3 w, float alpha_x, float alpha_y) {
+    float x = w.x * alpha_x, y = w.y * alpha_y;
+    return sqrt(fma(x, x, fma(y, y, w.z * w.z)));
+}
+
 /* Lower bound k of the spherical cap that reflects above the horizon (Eto and Tokuyoshi 2023, eq. 5); 1 =
- * unbounded. */
+ * unbounded. Of two alphas the smaller one is meant. */
 TRIAD_FUNCTION float ggx_cap(Vec3 wo, float alpha) {
     float s2 = math_square(1.0f + sqrt(fma(wo.x, wo.x, wo.y * wo.y)));
     float a2 = alpha * alpha;
@@ -32,9 +44,9 @@ TRIAD_FUNCTION float ggx_cap(Vec3 wo, float alpha) {
 
 /* A visible normal for wo (wo.z >= 0), stretch = s(wo): spherical caps (Dupuy and Benyoub 2023), cut at k (1:
  * whole). Unit, z > 0, and on wo's side. */
-TRIAD_FUNCTION Vec3 ggx_sample(Vec3 wo, float alpha, float stretch, float k, Vec2 u) {
+TRIAD_FUNCTION Vec3 ggx_sample_xy(Vec3 wo, float alpha_x, float alpha_y, float stretch, float k, Vec2 u) {
     float inv = 1.0f / stretch;
-    Vec3 w = vec3_make(alpha * wo.x * inv, alpha * wo.y * inv, wo.z * inv);
+    Vec3 w = vec3_make(alpha_x * wo.x * inv, alpha_y * wo.y * inv, wo.z * inv);
     /* h = cap point + w; sums of positive terms for h.z and 1 + z: at small alpha their cancellation would
      * turn h away */
     float h_z = fma(1.0f - u.y, fma(k, w.z, 1.0f), (1.0f - k) * w.z);
@@ -42,8 +54,11 @@ TRIAD_FUNCTION Vec3 ggx_sample(Vec3 wo, float alpha, float stretch, float k, Vec
     float r = math_sqrt((1.0f + w.z - h_z) * one_plus_z);
     float s, c;
     math_sincos_turns(u.x, &s, &c);
-    Vec3 h = vec3_make(alpha * fma(r, c, w.x), alpha * fma(r, s, w.y), h_z);
+    Vec3 h = vec3_make(alpha_x * fma(r, c, w.x), alpha_y * fma(r, s, w.y), h_z);
     return vec3_normalize(h);
+}
+TRIAD_FUNCTION Vec3 ggx_sample(Vec3 wo, float alpha, float stretch, float k, Vec2 u) {
+    return ggx_sample_xy(wo, alpha, alpha, stretch, k, u);
 }
 
 /* Density over solid angle of the reflection of wo about ggx_sample's normal, from d = D(h): the factor 1 /

@@ -2,55 +2,7 @@
 #ifndef TRIAD_SHADING_SURFACE_H
 #define TRIAD_SHADING_SURFACE_H
 
-#include "common/colour.h"
-#include "shading/scene.h"
-#include "shading/texture.h"
-
-typedef struct Surface {
-    Vec3 position;
-    Vec3 start;            /* where rays leave from, before the offset: position, but not at an edge */
-    Vec3 geometric_normal; /* unit, on the front side */
-    Vec3 shading_normal;   /* unit, on the front side */
-    float offset; /* how far a new ray starts off the surface: bounds the rounding error of position */
-    uint geometry, material;
-    uint touching; /* of a body's surface: the material of the body on the other side, or TRIAD_NONE */
-    Vec2 uv0, uv1;
-    Vec3 base_colour;
-    float metallic, roughness, transmission, specular;
-    Vec3 specular_colour;
-#if TRIAD_HERO
-    Colour base_values, specular_values; /* base_colour and specular_colour at the path's wavelengths */
-#endif
-} Surface;
-
-/* A vertex's attribute at a point, from the arrays' places of its three corners. */
-TRIAD_FUNCTION Vec2 surface_uv(const Scene* scene, uint first, const Triangle* t, float u, float v) {
-    const Vec2 a = vec2_scale(vec2_load(scene->uvs, first + t->vertex[0]), 1.0f - u - v);
-    const Vec2 b = vec2_scale(vec2_load(scene->uvs, first + t->vertex[1]), u);
-    const Vec2 c = vec2_scale(vec2_load(scene->uvs, first + t->vertex[2]), v);
-    return vec2_add(vec2_add(a, b), c);
-}
-TRIAD_FUNCTION Vec4 surface_colour(const Scene* scene, uint first, const Triangle* t, float u, float v) {
-    const Vec4 a = vec4_scale(vec4_load(scene->colours, first + t->vertex[0]), 1.0f - u - v);
-    const Vec4 b = vec4_scale(vec4_load(scene->colours, first + t->vertex[1]), u);
-    const Vec4 c = vec4_scale(vec4_load(scene->colours, first + t->vertex[2]), v);
-    return vec4_add(vec4_add(a, b), c);
-}
-
-/* UVs and vertex colour of a point, barycentric weights u, v of corners 1 and 2. */
-TRIAD_FUNCTION void surface_attributes(const Scene* scene, const Geometry* g, const Triangle* t, float u,
-                                       float v, Vec2* uv0, Vec2* uv1, Vec4* colour) {
-    *uv0 = vec2_splat(0.0f);
-    *uv1 = vec2_splat(0.0f);
-    *colour = vec4_splat(1.0f);
-#if TRIAD_TEXTURES
-    if (g->uv[0] != TRIAD_NONE) *uv0 = surface_uv(scene, g->uv[0], t, u, v);
-    if (g->uv[1] != TRIAD_NONE) *uv1 = surface_uv(scene, g->uv[1], t, u, v);
-#endif
-#if TRIAD_VERTEX_COLOURS
-    if (g->colour != TRIAD_NONE) *colour = surface_colour(scene, g->colour, t, u, v);
-#endif
-}
+#include "shading/surface_extensions.h"
 
 #if TRIAD_ALPHA_TEST
 /* Share of the rays that a surface stops at a point: 1 opaque, 0 or 1 for MASK, between for BLEND. */
@@ -68,38 +20,6 @@ TRIAD_FUNCTION float surface_coverage(const Scene* scene, uint primitive, float 
 #endif
     if (m->flags & MATERIAL_ALPHA_MASK) return alpha >= m->alpha_cutoff ? 1.0f : 0.0f;
     return alpha;
-}
-#endif
-
-#if TRIAD_NORMAL_MAPS
-/* The unit normal n perturbed by the material's normal map, in the tangent frame of the vertices. */
-TRIAD_FUNCTION Vec3 surface_normal_map(const Scene* scene, const Geometry* g, const Triangle* t, float u,
-                                       float v, const Surface* s, uint instance, Vec3 n) {
-    global const Material* m = scene->materials + g->material;
-    if (m->normal_use == TRIAD_NONE || g->tangent == TRIAD_NONE) return n;
-    const Vec4 t0 = vec4_load(scene->tangents, g->tangent + t->vertex[0]);
-    const Vec4 t1 = vec4_load(scene->tangents, g->tangent + t->vertex[1]);
-    const Vec4 t2 = vec4_load(scene->tangents, g->tangent + t->vertex[2]);
-    const Vec3 a0 = vec4_xyz(t0), a1 = vec3_sub(vec4_xyz(t1), a0), a2 = vec3_sub(vec4_xyz(t2), a0);
-    Vec3 tangent = vec3_add_scaled(vec3_add_scaled(a0, a1, u), a2, v);
-    float handedness = t0.w;
-#if TRIAD_INSTANCES
-    if (instance != 0u) {
-        global const float* a = scene->instances[instance].to_world;
-        tangent = transform_vector(a, tangent);
-        const float determinant = a[0] * (a[5] * a[10] - a[6] * a[9]) - a[1] * (a[4] * a[10] - a[6] * a[8]) +
-                                  a[2] * (a[4] * a[9] - a[5] * a[8]);
-        handedness = determinant < 0.0f ? -handedness : handedness;
-    }
-#endif
-    tangent = normalize_or(vec3_add_scaled(tangent, n, -vec3_dot(n, tangent)), vec3_splat(0.0f));
-    const Vec3 bitangent = vec3_scale(vec3_cross(n, tangent), handedness);
-    const Vec4 texel =
-        texture_use_sample(scene, m->normal_use, s->uv0, s->uv1, vec4_make(0.5f, 0.5f, 1.0f, 1.0f));
-    const Vec3 mapped = vec3_make(fma(2.0f, texel.x, -1.0f) * m->normal_scale,
-                                  fma(2.0f, texel.y, -1.0f) * m->normal_scale, fma(2.0f, texel.z, -1.0f));
-    const Vec3 in_plane = vec3_add_scaled(vec3_scale(tangent, mapped.x), bitangent, mapped.y);
-    return normalize_or(vec3_add_scaled(in_plane, n, mapped.z), n);
 }
 #endif
 
@@ -188,12 +108,15 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
 #endif
         ns = normalize_or(ns, n);
     }
+    global const Material* m = scene->materials + g.material;
+    const Vec3 smooth_normal = ns;
 #if TRIAD_NORMAL_MAPS
-    ns = surface_normal_map(scene, &g, &t, u, v, &s, instance, ns);
+    if (m->normal_use != TRIAD_NONE && g.tangent != TRIAD_NONE) {
+        const SurfaceTangents tangents = surface_tangents(scene, &g, &t, u, v, instance, ns);
+        ns = surface_normal_map(scene, m->normal_use, m->normal_scale, &tangents, &s, ns);
+    }
 #endif
     s.shading_normal = vec3_dot(ns, n) < 0.0f ? vec3_negate(ns) : ns;
-
-    global const Material* m = scene->materials + g.material;
     s.base_colour = vec3_mul(VEC3_OF(m->base_colour), vec4_xyz(colour));
     s.metallic = m->metallic;
     s.roughness = m->roughness;
@@ -213,6 +136,11 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     s.specular *= texture_use_sample(scene, m->specular_use, s.uv0, s.uv1, one).w;
     const Vec4 specular = texture_use_sample(scene, m->specular_colour_use, s.uv0, s.uv1, one);
     s.specular_colour = vec3_mul(s.specular_colour, vec4_xyz(specular));
+#endif
+#if SURFACE_EXTENSIONS
+    surface_extend(scene, m, &g, &t, u, v, instance, smooth_normal, &s);
+#else
+    (void)smooth_normal;
 #endif
     return s;
 }

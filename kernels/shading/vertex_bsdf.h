@@ -51,11 +51,55 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, Vec3
         input.transmission = 1.0f;
     }
 #endif
+#if BSDF_STRETCHED
+    input.anisotropy = s->anisotropy;
+#endif
+#if BSDF_FILM
+    input.film = s->film;
+    input.film_input.ior = s->film_ior;
+    input.film_input.thickness = s->film_thickness;
+    input.film_input.responses = scene->film_responses;
+#if TRIAD_HERO
+    input.film_input.wavelengths = s->wavelengths;
+    if (wavelength > 0.0f) input.film_input.wavelengths = vec4_splat(wavelength);
+#endif
+#endif
+#if TRIAD_DIFFUSE_TRANSMISSION
+    input.through = s->through;
+#if TRIAD_HERO
+    input.through_colour = s->through_values;
+#else
+    input.through_colour = s->through_colour;
+#endif
+#endif
     const float mirror = fma(1.0f - s->metallic, s->transmission, s->metallic);
     VertexBsdf v;
-    v.frame = frame_make(
-        vertex_shading_normal(back ? vec3_negate(s->shading_normal) : s->shading_normal, ng, wo, mirror));
+    const Vec3 normal =
+        vertex_shading_normal(back ? vec3_negate(s->shading_normal) : s->shading_normal, ng, wo, mirror);
+    v.frame = frame_make(normal);
+#if TRIAD_ANISOTROPY
+    if (s->anisotropy > 0.0f) v.frame = frame_make_along(normal, s->grain);
+#endif
     v.wo = frame_to_local(&v.frame, wo);
+    /* varnish and fibres are on the outside of a body */
+#if TRIAD_CLEARCOAT
+    input.coat = back && solid ? 0.0f : s->coat;
+    if (input.coat > 0.0f) {
+        input.coat_roughness = s->coat_roughness;
+        input.coat_normal = frame_to_local(
+            &v.frame,
+            vertex_shading_normal(back ? vec3_negate(s->coat_normal) : s->coat_normal, ng, wo, 1.0f));
+    }
+#endif
+#if TRIAD_SHEEN
+#if TRIAD_HERO
+    input.sheen = s->sheen_values;
+#else
+    input.sheen = s->sheen;
+#endif
+    input.sheen_roughness = s->sheen_roughness;
+    if (back && solid) input.sheen = colour_splat(0.0f);
+#endif
     v.bsdf = bsdf_make(&input, v.wo, scene->albedo);
     return v;
 }

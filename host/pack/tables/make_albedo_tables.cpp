@@ -70,6 +70,59 @@ Pair glass(double mu, double alpha, double eta) {
     });
 }
 
+/// GGX stretched to alpha_x along x, wo at the azimuth phi.
+Pair stretched(double mu, double phi, double alpha_x, double alpha_y) {
+    constexpr int steps = 32;
+    const double side = std::sqrt(1 - mu * mu), ox = side * std::cos(phi), oy = side * std::sin(phi);
+    const auto stretch_xy = [&](double x, double y, double z) {
+        return std::sqrt(alpha_x * alpha_x * x * x + alpha_y * alpha_y * y * y + z * z);
+    };
+    const double s_o = stretch_xy(ox, oy, mu), wx = alpha_x * ox / s_o, wy = alpha_y * oy / s_o,
+                 wz = mu / s_o;
+    Pair sum;
+    for (int i = 0; i < steps; ++i) {
+        const double z = (1 - (i + 0.5) / steps) * (1 + wz) - wz, r = std::sqrt((1 - z) * (1 + z));
+        for (int j = 0; j < 2 * steps; ++j) {
+            const double turn = 3.14159265358979323846 * (j + 0.5) / steps;
+            double hx = alpha_x * (r * std::cos(turn) + wx), hy = alpha_y * (r * std::sin(turn) + wy),
+                   hz = z + wz;
+            const double length = std::sqrt(hx * hx + hy * hy + hz * hz);
+            hx /= length, hy /= length, hz /= length;
+            const double c = std::min(1.0, ox * hx + oy * hy + mu * hz), iz = 2 * c * hz - mu;
+            if (iz <= 0) continue;
+            const double s_i = stretch_xy(2 * c * hx - ox, 2 * c * hy - oy, iz);
+            const double g = iz * (mu + s_o) / (iz * s_o + mu * s_i);
+            sum.first += g, sum.second += g * std::pow(1 - c, 5);
+        }
+    }
+    return {sum.first / (2.0 * steps * steps), sum.second / (2.0 * steps * steps)};
+}
+
+/// The sheen lobe of kernels/shading/sheen.h, over directions: z = t^2 resolves the rim.
+double sheen(double mu, double roughness) {
+    constexpr int steps = 96;
+    const double alpha = roughness * roughness, t = (1 - alpha) * (1 - alpha);
+    const auto mix = [t](double a, double b) { return a + (b - a) * t; };
+    const auto fit = [&](double x) {
+        return mix(21.5473, 25.3245) / (1 + mix(3.82987, 3.32435) * std::pow(x, mix(0.19823, 0.16801))) +
+               mix(-1.97760, -1.27393) * x + mix(-4.32054, -4.85967);
+    };
+    const auto lambda = [&](double c) { return std::exp(c < 0.5 ? fit(c) : 2 * fit(0.5) - fit(1 - c)); };
+    const double side = std::sqrt(1 - mu * mu);
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double root = (i + 0.5) / steps, z = root * root, r = std::sqrt(1 - z * z),
+                     lambda_i = lambda(z);
+        for (int j = 0; j < steps; ++j) {
+            const double phi = 3.14159265358979323846 * (j + 0.5) / steps;
+            const double hx = side + r * std::cos(phi), hy = r * std::sin(phi), hz = mu + z;
+            const double sine2 = (hx * hx + hy * hy) / (hx * hx + hy * hy + hz * hz);
+            sum += std::pow(sine2, 0.5 / alpha) * 2 * root / (4 * mu * (1 + lambda(mu) + lambda_i));
+        }
+    }
+    return (2 + 1 / alpha) * sum / (double(steps) * steps);  // 2 pi of directions over the 2 pi of D
+}
+
 void print(Pair p) { std::printf("%.8ef, %.8ef,\n", p.first, p.second); }
 
 }  // namespace
@@ -89,4 +142,23 @@ int main() {
                     const double root = double(m) / n, roughness = double(r) / n;
                     print(glass(root * root, roughness * roughness, inside ? 1 / ior : ior));
                 }
+    const double least = 1e-3;  // a roughness or cosine of 0 has no integral
+    for (int r = 0; r < ALBEDO_LONG; ++r)
+        for (int s = 0; s < ALBEDO_SHORT; ++s)
+            for (int p = 0; p < ALBEDO_SHORT; ++p)
+                for (int m = 0; m < ALBEDO_LONG; ++m) {
+                    const double root = double(m) / (ALBEDO_LONG - 1),
+                                 strength = double(s) / (ALBEDO_SHORT - 1);
+                    const double roughness = double(r) / (ALBEDO_LONG - 1);
+                    const double alpha = std::max(roughness * roughness, double(BSDF_SMOOTH_ALPHA));
+                    print(stretched(std::max(root * root, least),
+                                    0.5 * 3.14159265358979323846 * p / (ALBEDO_SHORT - 1),
+                                    alpha + (1 - alpha) * strength * strength, alpha));
+                }
+    for (int r = 0; r < ALBEDO_SIZE; ++r)
+        for (int m = 0; m < ALBEDO_SIZE; ++m) {
+            const double root = double(m) / (ALBEDO_SIZE - 1), t = double(r) / (ALBEDO_SIZE - 1);
+            std::printf("%.8ef,\n", sheen(std::max(root * root, least),
+                                          SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * t));
+        }
 }

@@ -1,0 +1,84 @@
+/* KHR_materials_iridescence: the reflectance of a thin film between air and a base whose reflectance at
+ * normal incidence is given. Exact for smooth, clear films (Airy 1833), all reflections and both
+ * polarisations:
+ *
+ *   R = 1 - (1 - r12^2) (1 - r23^2) / (1 - x^2) (1 + 2 sum_m (-x)^m cos(m phi)),  x = r12 r23,
+ *
+ * with phi = 2 pi D / lambda of the optical path difference D = 2 n d cos. In colours the mean of cos(2 pi m
+ * D / lambda) over the response of a channel is a function of m D alone: a table (Belcour and Barla 2017 take
+ * Gaussians in its place). The base has a real index: (1 + sqrt(F0)) / (1 - sqrt(F0)). */
+#ifndef TRIAD_SHADING_THIN_FILM_H
+#define TRIAD_SHADING_THIN_FILM_H
+
+#include "common/vector.h"
+#include "shading/bsdf_input.h"
+#include "shading/fresnel.h"
+
+#if BSDF_FILM
+/* Mean of cos(2 pi D / lambda), D in nm, at the colours' channels or wavelengths. */
+TRIAD_FUNCTION Colour film_cosine(const FilmInput* film, float difference) {
+#if TRIAD_HERO
+    const Vec4 w = film->wavelengths;
+    return vec4_make(math_cos_turns(difference / w.x), math_cos_turns(difference / w.y),
+                     math_cos_turns(difference / w.z), math_cos_turns(difference / w.w));
+#else
+    const float x = difference * (1.0f / FILM_STEP);
+    if (!(x < (float)(FILM_ROWS - 1))) return colour_splat(0.0f);
+    const uint i = (uint)x;
+    global const float* row = film->responses + 3u * i;
+    return vec3_mix(vec3_load(row, 0u), vec3_load(row, 1u), x - (float)i);
+#endif
+}
+
+/* 1 - R of one polarisation and one channel; cosines[m - 1] is the mean of cos(m phi). */
+TRIAD_FUNCTION float film_transmitted(float r12, float r23, const float cosines[FILM_ORDERS]) {
+    const float x = r12 * r23;
+    float power = 1.0f, sum = 0.5f;
+    for (uint m = 0u; m < FILM_ORDERS; ++m) {
+        power *= -x;
+        sum = fma(power, cosines[m], sum);
+    }
+    return 2.0f * sum * (1.0f - r12 * r12) * (1.0f - r23 * r23) / math_max(1.0f - x * x, 1e-6f);
+}
+
+/* One channel; c1, c2: cosines in air and in the film. */
+TRIAD_FUNCTION float film_channel(float ior, float f0, float c1, float c2, const float cosines[FILM_ORDERS]) {
+    const float root = sqrt(math_min(f0, 0.9998f)), base = (1.0f + root) / (1.0f - root);
+    const float sine = math_sqrt((1.0f - c1) * (1.0f + c1)) / base,
+                c3 = math_sqrt((1.0f - sine) * (1.0f + sine));
+    const float s12 = (c1 - ior * c2) / (c1 + ior * c2), p12 = (ior * c1 - c2) / (ior * c1 + c2);
+    const float s23 = (ior * c2 - base * c3) / (ior * c2 + base * c3),
+                p23 = (base * c2 - ior * c3) / (base * c2 + ior * c3);
+    const float through = film_transmitted(s12, s23, cosines) + film_transmitted(p12, p23, cosines);
+    return math_saturate(1.0f - 0.5f * through);
+}
+
+/* c: cosine in air; f0: of the base without the film. */
+TRIAD_FUNCTION_PER_CALL Colour film_reflectance(const FilmInput* film, Colour f0, float c) {
+    const float c1 = math_max(math_min(c, 1.0f), 1e-4f);
+    const float sine = math_sqrt((1.0f - c1) * (1.0f + c1)) / film->ior,
+                c2 = math_sqrt((1.0f - sine) * (1.0f + sine));
+    const float difference = 2.0f * film->ior * film->thickness * c2;
+    float x[FILM_ORDERS], y[FILM_ORDERS], z[FILM_ORDERS];
+#if TRIAD_HERO
+    float w[FILM_ORDERS];
+#endif
+    for (uint m = 0u; m < FILM_ORDERS; ++m) {
+        const Colour cosine = film_cosine(film, difference * (float)(m + 1u));
+        x[m] = cosine.x, y[m] = cosine.y, z[m] = cosine.z;
+#if TRIAD_HERO
+        w[m] = cosine.w;
+#endif
+    }
+    Colour r;
+    r.x = film_channel(film->ior, f0.x, c1, c2, x);
+    r.y = film_channel(film->ior, f0.y, c1, c2, y);
+    r.z = film_channel(film->ior, f0.z, c1, c2, z);
+#if TRIAD_HERO
+    r.w = film_channel(film->ior, f0.w, c1, c2, w);
+#endif
+    return r;
+}
+#endif
+
+#endif
