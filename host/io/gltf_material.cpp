@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/gltf_extras.h"
+#include "io/gltf_members.h"
 #include "io/gltf_specular_glossiness.h"
 
 namespace triad::gltf {
@@ -16,22 +17,9 @@ using tinygltf::Value;
 
 /// Whether textures of this member hold colours, sRGB-encoded.
 bool is_colour(std::string_view member) {
-    return member == "baseColorTexture" || member == "emissiveTexture" || member == "specularColorTexture";
+    return member == "baseColorTexture" || member == "emissiveTexture" || member == "specularColorTexture" ||
+           member == "sheenColorTexture" || member == "diffuseTransmissionColorTexture";
 }
-
-const Value* find(const tinygltf::ExtensionMap& extensions, const char* name) {
-    const auto found = extensions.find(name);
-    return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
-}
-
-vec3 colour(const Value& object, const char* member, const vec3& otherwise) {
-    if (!object.Has(member)) return otherwise;
-    const Value& array = object.Get(std::string(member));
-    return vec3(array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
-                array.Get(2).GetNumberAsDouble());
-}
-
-float unit(double x) { return float(std::clamp(x, 0.0, 1.0)); }
 
 vec3 not_negative(const vec3& c) { return glm::max(c, vec3(0.0f)); }
 
@@ -88,10 +76,6 @@ const char* unsupported_format(const ImageSource& image) {
 
 }  // namespace
 
-double number(const Value& object, const char* member, double otherwise) {
-    return object.Has(member) ? object.Get(std::string(member)).GetNumberAsDouble() : otherwise;
-}
-
 std::size_t Materials::use(int material) {
     const auto [found, is_new] = materials_.try_emplace(material, scene_.materials.size());
     if (is_new) scene_.materials.push_back(material < 0 ? Material{.name = "default"} : convert(material));
@@ -104,6 +88,11 @@ std::size_t Materials::use_for_strokes(int material, bool has_normals) {
     Material m = scene_.materials[use(material)];
     m.double_sided = true;
     m.normal_texture.reset();
+    if (m.clearcoat) m.clearcoat->normal_texture.reset();
+    m.anisotropy.reset();
+    if (!has_normals) {
+        m.clearcoat.reset(), m.sheen.reset(), m.iridescence.reset(), m.diffuse_transmission.reset();
+    }
     if (!has_normals && m.emission == vec3(0.0f)) {
         m.unlit = true;
     } else if (!has_normals) {  // as bright as it asks for, which unlit surfaces cannot be
@@ -132,11 +121,12 @@ std::optional<std::size_t> Materials::texture_with_sampler(int index, const std:
     const std::string name = what + ", " + label("texture", std::size_t(index), texture.name);
 
     int source = texture.source;
-    if (const Value* webp = find(texture.extensions, "EXT_texture_webp"); webp && webp->Has("source"))
+    if (const Value* webp = find_extension(texture.extensions, "EXT_texture_webp");
+        webp && webp->Has("source"))
         source = webp->Get("source").GetNumberAsInt();
     const char* needs = source < 0 ? nullptr : unsupported_format(file_.images[std::size_t(source)]);
     for (const char* other : {"KHR_texture_basisu", "MSFT_texture_dds"})
-        if (source < 0 && find(texture.extensions, other)) needs = other;
+        if (source < 0 && find_extension(texture.extensions, other)) needs = other;
     if (needs) {
         file_.warn(name + " needs " + needs +
                    ", which is not supported; it is left out (convert its image to PNG or JPEG).");
@@ -160,7 +150,7 @@ std::optional<TextureUse> Materials::texture(const char* member, int index, int 
                                              const std::string& what, std::optional<double> glossiness) {
     if (index < 0) return std::nullopt;
     TextureUse use;
-    if (const Value* transform = find(extensions, "KHR_texture_transform")) {
+    if (const Value* transform = find_extension(extensions, "KHR_texture_transform")) {
         use.transform = transform_of(*transform);
         uv_set = int(number(*transform, "texCoord", uv_set));
     }
@@ -192,7 +182,7 @@ std::optional<TextureUse> Materials::extension_texture(const Value& extension, c
 void Materials::convert_specular_glossiness(const Value& extension, const std::string& what, Material& m) {
     m.base_colour = vec4(glm::clamp(colour(extension, "diffuseFactor", vec3(1.0f)), 0.0f, 1.0f), 1.0f);
     if (extension.Has("diffuseFactor"))
-        m.base_colour.w = unit(extension.Get("diffuseFactor").Get(3).GetNumberAsDouble());
+        m.base_colour.w = to_unit(extension.Get("diffuseFactor").Get(3).GetNumberAsDouble());
     m.base_colour_texture = extension_texture(extension, "diffuseTexture", what);
     m.metallic = 0.0f;
     m.ior = 0.0f;
@@ -218,9 +208,9 @@ Material Materials::convert(int index) {
     Material m;
     m.name = source.name;
     const auto& base = pbr.baseColorFactor;
-    m.base_colour = vec4(unit(base[0]), unit(base[1]), unit(base[2]), unit(base[3]));
-    m.metallic = unit(pbr.metallicFactor);
-    m.roughness = unit(pbr.roughnessFactor);
+    m.base_colour = vec4(to_unit(base[0]), to_unit(base[1]), to_unit(base[2]), to_unit(base[3]));
+    m.metallic = to_unit(pbr.metallicFactor);
+    m.roughness = to_unit(pbr.roughnessFactor);
     m.double_sided = source.doubleSided;
     m.alpha_cutoff = float(source.alphaCutoff);
     if (source.alphaMode == "MASK")
@@ -237,12 +227,12 @@ Material Materials::convert(int index) {
 
     if (const auto& e = source.emissiveFactor; e.size() == 3)
         m.emission = not_negative(vec3(e[0], e[1], e[2]));
-    if (const Value* e = find(source.extensions, "KHR_materials_emissive_strength"))
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_emissive_strength"))
         m.emission *= float(number(*e, "emissiveStrength", 1.0));
     if (m.emission != vec3(0.0f)) m.emission_texture = info("emissiveTexture", source.emissiveTexture);
 
-    m.unlit = find(source.extensions, "KHR_materials_unlit") != nullptr;
-    if (const Value* e = find(source.extensions, "KHR_materials_ior")) {
+    m.unlit = find_extension(source.extensions, "KHR_materials_unlit") != nullptr;
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_ior")) {
         const double ior = number(*e, "ior", 1.5);
         if (ior != 0.0 && ior < 1.0) file_.warn(what + " has an ior below 1, which is taken as 1.");
         if (ior > Dispersion::most_index)
@@ -250,31 +240,32 @@ Material Materials::convert(int index) {
                        " has an ior above 10, which no transparent material has; it is used as it is.");
         m.ior = ior == 0.0 ? 0.0f : float(std::max(ior, 1.0));
     }
-    if (const Value* e = find(source.extensions, "KHR_materials_specular")) {
-        m.specular = unit(number(*e, "specularFactor", 1.0));
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_specular")) {
+        m.specular = to_unit(number(*e, "specularFactor", 1.0));
         m.specular_colour = not_negative(colour(*e, "specularColorFactor", vec3(1.0f)));
         m.specular_texture = extension_texture(*e, "specularTexture");
         m.specular_colour_texture = extension_texture(*e, "specularColorTexture");
     }
-    if (const Value* e = find(source.extensions, "KHR_materials_transmission")) {
-        m.transmission = unit(number(*e, "transmissionFactor", 0.0));
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_transmission")) {
+        m.transmission = to_unit(number(*e, "transmissionFactor", 0.0));
         if (m.transmission > 0.0f) m.transmission_texture = extension_texture(*e, "transmissionTexture");
     }
-    if (const Value* e = find(source.extensions, "KHR_materials_volume")) {
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_volume")) {
         m.thickness = float(number(*e, "thicknessFactor", 0.0));
         m.attenuation_colour = glm::clamp(colour(*e, "attenuationColor", vec3(1.0f)), 0.0f, 1.0f);
         const double distance = number(*e, "attenuationDistance", 0.0);
         if (distance > 0.0) m.attenuation_distance = float(distance);
     }
-    if (const Value* e = find(source.extensions, "KHR_materials_dispersion"))
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_dispersion"))
         if (const double dispersion = number(*e, "dispersion", 0.0); dispersion > 0.0) {
             if (m.ior == 0.0f)
                 file_.warn(what + " has a dispersion, but an ior of 0 lets no light in; it is left out.");
             else
                 m.dispersion = abbe_dispersion(m.ior, dispersion);
         }
-    if (const Value* e = find(source.extensions, "KHR_materials_pbrSpecularGlossiness"))
+    if (const Value* e = find_extension(source.extensions, "KHR_materials_pbrSpecularGlossiness"))
         convert_specular_glossiness(*e, what, m);
+    if (!m.unlit) convert_blocks(source.extensions, what, m);
     apply_material_extras(source.extras, what, m, [this](const std::string& s) { file_.warn(s); });
     if (m.dispersion && !(m.transmission > 0.0f && m.thickness > 0.0f)) {
         file_.warn(what +

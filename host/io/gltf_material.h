@@ -21,7 +21,8 @@ class Materials {
     std::size_t use(int material);
 
     /// The same for points and lines, as glTF 2.0 says: without normals they are not lit and show the sum of
-    /// base colour and emission. Normal maps are left out.
+    /// base colour and emission. What needs a direction along the surface (normal maps, anisotropy) is left
+    /// out; without normals, all that reflects.
     std::size_t use_for_strokes(int material, bool has_normals);
 
     /// Decodes every image in use, on all cores. `longer`: as GltfChoice::max_texture. Throws Error(scene)
@@ -37,6 +38,12 @@ class Materials {
                                                 const std::string& what,
                                                 std::optional<double> glossiness = std::nullopt);
     void convert_specular_glossiness(const tinygltf::Value& extension, const std::string& what, Material& m);
+    void convert_blocks(const tinygltf::ExtensionMap& extensions, const std::string& what, Material& m);
+    void convert_clearcoat(const tinygltf::Value& extension, const std::string& what, Material& m);
+    void convert_sheen(const tinygltf::Value& extension, const std::string& what, Material& m);
+    void convert_anisotropy(const tinygltf::Value& extension, const std::string& what, Material& m);
+    void convert_iridescence(const tinygltf::Value& extension, const std::string& what, Material& m);
+    void convert_diffuse_transmission(const tinygltf::Value& extension, const std::string& what, Material& m);
     /// None: its image is of a format that is not read; a warning says so. `glossiness`: its factor where the
     /// image is to become one of roughness.
     std::optional<std::size_t> texture_with_sampler(int index, const std::string& what,
@@ -52,8 +59,5 @@ class Materials {
     std::vector<Derived> image_sources_;  ///< of scene_.images
     std::set<std::size_t> colours_;       ///< of scene_.images: those that hold colours
 };
-
-/// A member of an extension that check_document() found to be a number, or its default.
-double number(const tinygltf::Value& object, const char* member, double otherwise);
 
 }  // namespace triad::gltf

@@ -9,6 +9,7 @@
 #include "io/gltf_extras.h"
 #include "io/gltf_instancing.h"
 #include "io/gltf_material.h"
+#include "io/gltf_members.h"
 #include "io/gltf_mesh.h"
 #include "io/gltf_node.h"
 #include "io/gltf_skin.h"
