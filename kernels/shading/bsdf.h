@@ -11,7 +11,8 @@
 #ifndef TRIAD_SHADING_BSDF_H
 #define TRIAD_SHADING_BSDF_H
 
-#include "shading/base_bsdf.h"
+#include "shading/base_make.h"
+#include "shading/base_sample.h"
 #include "shading/clearcoat.h"
 #include "shading/sheen.h"
 

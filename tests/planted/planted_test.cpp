@@ -32,7 +32,7 @@ const Fault faults[] = {
     {"min_instead_of_fmin", "common/math.h", "{ return a < b ? a : b; }", "{ return b < a ? b : a; }", "M8"},
     {"pdf_in_the_wrong_measure", "shading/light.h", "area_per_pick * cosine * inverse_distance2",
      "area_per_pick", "D2"},
-    {"missing_jacobian", "shading/base_bsdf.h", "eta * eta * -wi_h / l2", "1.0f", "C11c"},
+    {"missing_jacobian", "shading/base_sample.h", "eta * eta * -wi_h / l2", "1.0f", "C11c"},
     {"off_by_one_in_the_cdf", "shading/environment.h", "cdf_below(tree + first + 8u * i, u);",
      "cdf_below(tree + first + 8u * i, u) + (level + 1u == levels ? 1u : 0u);", "S6"},
     {"children_of_lights_by_their_shares_alone", "shading/light_tree.h", "rest -= (uint)ends[child];\n", "\n",
@@ -46,7 +46,7 @@ const Fault faults[] = {
     {"clamped_roulette", "path/survive.h", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
     {"swapped_tangent", "common/frame.h", "(v.x, f->x, vec3_fma_scale(v.y, f->y",
      "(v.x, f->y, vec3_fma_scale(v.y, f->x", "C22"},
-    {"wrong_eta_side", "shading/base_bsdf.h", "in->inside ? 1.0f / in->ior : in->ior",
+    {"wrong_eta_side", "shading/base_make.h", "in->inside ? 1.0f / in->ior : in->ior",
      "in->inside ? in->ior : 1.0f / in->ior", "B2"},
     {"floats_that_reach_1", "common/random.h", "(float)(bits >> 8) * 5.9604644775390625e-8f",
      "(float)bits * 2.3283064365386963e-10f", "C19"},
@@ -165,7 +165,7 @@ int exit_code(const std::string& command) {
 }
 
 TEST(FirstRender, refuses_kernels_that_compute_wrong_answers_unless_forced) {
-    const FaultyKernels kernels("shading/base_bsdf.h", "eta * eta * -wi_h / l2", "1.0f");
+    const FaultyKernels kernels("shading/base_sample.h", "eta * eta * -wi_h / l2", "1.0f");
     ASSERT_TRUE(kernels.found_once);
     const fs::path cache = kernels.folder / "cache", picture = kernels.folder / "picture.png";
     const std::string render = "XDG_CACHE_HOME=" + cache.string() + " " + TRIAD_PROGRAM +

@@ -1,0 +1,183 @@
+/* The core of the material (shading/base_bsdf.h) seen from one wo. */
+#ifndef TRIAD_SHADING_BASE_MAKE_H
+#define TRIAD_SHADING_BASE_MAKE_H
+
+#include "shading/base_bsdf.h"
+
+#if BSDF_FILM
+/* Mean of the film's reflectance over the reflections of the rough base, weighted as they are seen. */
+TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
+    if (b->smooth) return film_reflectance(&b->film_input, b->film0, wo.z);
+    Colour sum = colour_splat(0.0f);
+    float weights = 0.0f;
+    for (uint k = 0u; k < 16u; ++k) {
+        Vec2 u = vec2_make((float)k * 0.618034f, ((float)k + 0.5f) * 0.0625f);
+        Vec3 h = base_normal(b, wo, 1.0f, vec2_make(u.x - math_floor(u.x), u.y));
+        float c = math_min(vec3_dot(wo, h), 1.0f);
+        Vec3 wi = vec3_reflect(wo, h);
+        if (wi.z <= 0.0f) continue;
+        float g = ggx_masking(wo.z, b->stretch, wi.z, base_stretch(b, wi)) * (wo.z + b->stretch);
+        sum = colour_fma_scale(g, film_reflectance(&b->film_input, b->film0, c), sum);
+        weights += g;
+    }
+    return weights > 0.0f ? colour_scale(sum, 1.0f / weights)
+                          : film_reflectance(&b->film_input, b->film0, wo.z);
+}
+#endif
+
+#if BSDF_FILM
+/* The film's share of what the microfacets reflect; `kept` is the albedo of the rough base with Fresnel
+ * factor 1, coat_albedo of what covers the Lambert lobe. Returns the albedo of that share. */
+TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float opaque, float kept,
+                                   Colour* coat_albedo) {
+    b->film_input = in->film_input;
+    Colour mean = base_film_mean(b, wo);
+    Colour whole = colour_fma_scale((1.0f - kept) / kept, mean, colour_splat(1.0f));
+    Colour film_albedo = colour_scale(colour_mul(whole, mean), in->film * kept);
+    float weight = fma(opaque, in->specular, in->metallic);
+    b->film = colour_scale(whole, in->film * weight);
+    b->film_share = in->film;
+    b->specular0 = colour_scale(b->specular0, 1.0f - in->film);
+    b->specular1 = colour_scale(b->specular1, 1.0f - in->film);
+    *coat_albedo = colour_fma_scale(in->specular, film_albedo, colour_scale(*coat_albedo, 1.0f - in->film));
+    return colour_average(film_albedo) * weight;
+}
+#endif
+
+/* The Lambert base, of which `share` is seen; returns its albedo. */
+TRIAD_FUNCTION float base_lambert(BaseBsdf* b, const BsdfInput* in, float share) {
+    b->diffuse = colour_scale(in->base_colour, share);
+    float albedo = colour_average(b->diffuse);
+#if TRIAD_DIFFUSE_TRANSMISSION
+    b->diffuse_through = colour_splat(0.0f);
+    b->p_through = 0.0f;
+    if (in->through > 0.0f) {
+        b->diffuse = colour_scale(b->diffuse, 1.0f - in->through);
+        b->diffuse_through = colour_scale(in->through_colour, share * in->through);
+        float through = colour_average(b->diffuse_through);
+        albedo = colour_average(b->diffuse) + through;
+        b->p_through = albedo > 0.0f ? through / albedo : 0.0f;
+    }
+#endif
+    return albedo;
+}
+
+/* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission in [0, 1], ior 0 or at least 1. */
+TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
+    BaseBsdf b;
+#if !TRIAD_SPECULAR
+    (void)wo, (void)albedo_tables;
+    (void)base_lambert(&b, in, 1.0f);
+#if BSDF_LAYERED
+    b.albedo = colour_average(in->base_colour);
+#endif
+#else
+    float f0 = fresnel_normal(in->ior);
+    Colour coat0 =
+        colour_scale(colour_at_most(colour_scale(in->specular_colour, f0), colour_splat(1.0f)), in->specular);
+    Colour coat90 = colour_splat(in->specular);
+    float dielectric = 1.0f - in->metallic;
+    float opaque = dielectric;
+    b.alpha = math_square(in->roughness);
+    b.smooth = b.alpha < BSDF_SMOOTH_ALPHA;
+#if BSDF_STRETCHED
+    b.alpha_x = fma(1.0f - b.alpha, math_square(in->anisotropy), b.alpha);
+    if (b.smooth && b.alpha_x >= BSDF_SMOOTH_ALPHA) b.smooth = 0u, b.alpha = BSDF_SMOOTH_ALPHA;
+#endif
+#if BSDF_FILM
+    b.film = colour_splat(0.0f);
+    b.film_share = 0.0f;
+#endif
+#if BSDF_TRANSMISSION
+    float transmitter = in->ior >= 1.0f && f0 < 1.0f ? dielectric * in->transmission : 0.0f;
+    opaque = dielectric - transmitter;
+    b.transmits = transmitter > 0.0f;
+    b.solid = in->solid;
+    if (b.transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b.smooth = 1u;
+#endif
+    uint lambert = in->metallic == 0.0f && in->specular == 0.0f;
+#if BSDF_TRANSMISSION
+    lambert = lambert && !b.transmits;
+#endif
+    if (lambert) { /* what follows would come to the same bits */
+        b.specular0 = b.specular1 = colour_splat(0.0f);
+        b.p_specular = 0.0f;
+        float lambert_albedo = base_lambert(&b, in, opaque);
+#if BSDF_LAYERED
+        b.albedo = lambert_albedo;
+#else
+        (void)lambert_albedo;
+#endif
+        return b;
+    }
+    /* directional albedo of GGX reflection, Fresnel factor 1 and (1 - cos)^5 */
+    Vec2 albedo = vec2_make(1.0f, fresnel_schlick_weight(wo.z));
+    float root_mu = sqrt(wo.z);
+    if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
+#if BSDF_STRETCHED
+    if (b.alpha_x != b.alpha)
+        albedo = albedo_anisotropic(albedo_tables, root_mu, wo, sqrt(b.alpha), in->anisotropy);
+#endif
+    float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
+
+    b.stretch = base_stretch(&b, wo);
+    Colour metal0 = in->base_colour;
+    Colour metal = colour_scale(colour_fma_scale(missing, metal0, colour_splat(1.0f)), in->metallic);
+    Colour coat = colour_fma_scale(missing, coat0, colour_splat(1.0f));
+    Colour opaque_coat = colour_scale(coat, opaque), coat_rise = colour_sub(coat90, coat0);
+    b.specular0 = colour_fma(metal, metal0, colour_mul(opaque_coat, coat0));
+    b.specular1 = colour_fma(metal, colour_complement(metal0), colour_mul(opaque_coat, coat_rise));
+    Colour coat_albedo =
+        colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
+    float film_albedo = 0.0f;
+#if BSDF_FILM
+    if (in->film > 0.0f) {
+        b.film0 = colour_fma_scale(in->metallic, colour_sub(metal0, coat0), coat0);
+        film_albedo = base_add_film(&b, in, wo, opaque, albedo.x, &coat_albedo);
+    }
+#endif
+    float d = base_lambert(&b, in, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
+
+    float p = colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
+    p += film_albedo;
+    uint bounded = !b.smooth;
+#if BSDF_TRANSMISSION
+    b.p_cap = 0.0f;
+    if (b.transmits) {
+        bounded = 0u;
+        b.fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
+        b.fresnel0 = colour_fma_scale(-f0, b.fresnel1, coat0);
+        b.tint = in->base_colour;
+        b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
+        b.body_scale = in->solid ? 1.0f / (b.eta * b.eta) : 1.0f;
+        b.transmitter = colour_splat(transmitter);
+        if (!b.smooth) {
+            Colour kept = colour_splat(albedo.x);
+            if (in->solid) {
+                Vec2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
+                Colour lost = colour_sub(colour_complement(b.fresnel0), b.fresnel1);
+                kept = colour_add(
+                    colour_add(colour_scale(b.fresnel0, albedo.x), colour_scale(b.fresnel1, glass.x)),
+                    colour_scale(lost, glass.y));
+            }
+            b.transmitter = colour_div(colour_splat(transmitter), kept);
+            /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
+             * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
+            if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - colour_average(kept));
+            bounded = b.p_cap > 0.0f;
+        }
+        Colour f = base_transmitter_fresnel(&b, wo.z);
+        Colour seen = colour_add(f, colour_mul(colour_complement(f), b.tint));
+        p += transmitter * math_max(colour_average(seen), BSDF_MIN_TRANSMITTER);
+    }
+#endif
+    b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;
+#if BSDF_LAYERED
+    b.albedo = p + d;
+#endif
+    b.p_specular = p > 0.0f ? (d > 0.0f ? p / (p + d) : 1.0f) : 0.0f;
+#endif
+    return b;
+}
+
+#endif
