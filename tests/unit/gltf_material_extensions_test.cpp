@@ -80,5 +80,37 @@ TEST(GltfMaterialExtensions, numbers_that_no_thickness_or_index_can_be_are_refus
     }
 }
 
+/// What tangents the triangle gets whose TEXCOORD_0 runs along x and TEXCOORD_1 along y.
+std::vector<vec4> tangents_with(const json& extensions, bool has_uvs = true) {
+    GltfBuilder b;
+    with_extensions(b, extensions);
+    if (has_uvs) {
+        b.primitive()["attributes"]["TEXCOORD_0"] = b.accessor(std::vector<float>{0, 1, 1, 1, 0, 0}, "VEC2");
+        b.primitive()["attributes"]["TEXCOORD_1"] = b.accessor(std::vector<float>{0, 0, 0, 1, 1, 0}, "VEC2");
+    }
+    return b.load().meshes.at(0).primitives.at(0).tangents;
+}
+
+TEST(GltfMaterialExtensions, what_needs_tangents_gets_them_along_its_own_uvs) {
+    const std::vector<vec4> none, along_x(3, vec4(1, 0, 0, 1)), along_y(3, vec4(0, 1, 0, 1));
+    const json first{{"index", 0}}, second{{"index", 0}, {"texCoord", 1}};
+    const auto coat = [](const json& map) {
+        return json{{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", map}}}};
+    };
+    const auto brushed = [](const json& map) {
+        return json{{"KHR_materials_anisotropy", {{"anisotropyStrength", 1}, {"anisotropyTexture", map}}}};
+    };
+    const json plain{{"KHR_materials_anisotropy", {{"anisotropyStrength", 1}}}};
+    EXPECT_EQ(tangents_with(coat(first)), along_x);
+    EXPECT_EQ(tangents_with(coat(second)), along_y);
+    EXPECT_EQ(tangents_with(brushed(first)), along_x);
+    EXPECT_EQ(tangents_with(brushed(second)), along_y);
+    EXPECT_EQ(tangents_with(plain), along_x);
+    EXPECT_EQ(tangents_with(plain, false), none);
+    EXPECT_EQ(tangents_with(coat(first), false), none);
+    EXPECT_EQ(tangents_with(all_factors()), along_x);
+    EXPECT_EQ(tangents_with({{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}}}), none);
+}
+
 }  // namespace
 }  // namespace triad
