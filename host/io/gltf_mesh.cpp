@@ -216,8 +216,18 @@ void read_colours(const Source& source, Primitive& p) {
         for (int k = 0; k < 4; ++k) c[k] = c[k] >= 0.0f ? std::min(c[k], 1.0f) : 0.0f;  // a NaN becomes 0
 }
 
-/// Unit normals and tangents, once the primitive is posed; tangents are made where a normal map lacks them.
-void settle_directions(const Source& source, const std::optional<TextureUse>& normal_map, Primitive& p) {
+/// Along whose UVs the tangents of a material run, the most telling first; empty: it needs none. (There is
+/// one frame for each vertex: what uses other UVs beside them is turned.)
+std::vector<TextureUse> tangent_uvs(const Material& m) {
+    std::vector<TextureUse> uses;
+    if (m.normal_texture) uses.push_back(*m.normal_texture);
+    if (m.anisotropy) uses.push_back(m.anisotropy->texture.value_or(TextureUse{}));
+    if (m.clearcoat && m.clearcoat->normal_texture) uses.push_back(*m.clearcoat->normal_texture);
+    return uses;
+}
+
+/// Unit normals and tangents, once the primitive is posed; tangents are made where the material lacks them.
+void settle_directions(const Source& source, const std::vector<TextureUse>& uses, Primitive& p) {
     if (!p.normals.empty())
         source.tell(normalise(p.normals, p), "NORMAL", "without length",
                     "they become those of the triangles around");
@@ -226,12 +236,14 @@ void settle_directions(const Source& source, const std::optional<TextureUse>& no
                           ") has elements without direction; all are computed anew.");
         p.tangents.clear();
     }
-    if (!normal_map || !p.tangents.empty() || p.uvs[normal_map->uv_set].empty()) return;
+    const auto use =
+        std::find_if(uses.begin(), uses.end(), [&](const TextureUse& u) { return !p.uvs[u.uv_set].empty(); });
+    if (use == uses.end() || !p.tangents.empty()) return;
     if (p.normals.empty()) {
         source.file.charge(p.triangles.size() * 256, source.what);
         make_flat(p);
     }
-    generate_tangents(p, transformed(p.uvs[normal_map->uv_set], *normal_map));
+    generate_tangents(p, transformed(p.uvs[use->uv_set], *use));
 }
 
 }  // namespace
@@ -275,12 +287,12 @@ std::optional<Primitive> Meshes::convert(const tinygltf::Primitive& primitive, c
     p.material = mode >= TINYGLTF_MODE_TRIANGLES
                      ? materials_.use(material)
                      : materials_.use_for_strokes(material, source.attribute("NORMAL") >= 0);
-    const std::optional<TextureUse> normal_map = scene_.materials[p.material].normal_texture;
-    read_directions(source, normal_map.has_value(), p);
+    const std::vector<TextureUse> uses = tangent_uvs(scene_.materials[p.material]);
+    read_directions(source, !uses.empty(), p);
     read_uvs(source, p);
     read_colours(source, p);
     if (deformation.skin || !primitive.targets.empty()) deform(file_, primitive, deformation, p, what);
-    settle_directions(source, normal_map, p);
+    settle_directions(source, uses, p);
     return p;
 }
 
