@@ -43,9 +43,9 @@ std::uint64_t samples_of_run(Renderer& renderer) {
 
 std::string work_words(const KernelRow& row) {
     if (!row.floor) return "";
-    return format("%.3g GB/s, %.3g GFLOP/s, %.0f %% of the roof, which is ", 1e-9 * row.bytes_per_s(),
-                  1e-9 * row.flops_per_s(), 100 * *row.roofline_share()) +
-           row.floor->by;
+    return format("%.3g GB/s, ", 1e-9 * row.bytes_per_s()) +
+           (row.flops_per_s() > 0 ? format("%.3g GFLOP/s, ", 1e-9 * row.flops_per_s()) : "") +
+           format("%.0f %% of the roof, which is ", 100 * *row.roofline_share()) + row.floor->by;
 }
 
 }  // namespace

@@ -138,7 +138,9 @@ void BoardRun::take(const Step& step) {
     tell();
     const double before = plan_.elapsed();
     try {
-        for (BoardRow& row : step.measure()) board_.rows.push_back(std::move(row));
+        std::vector<BoardRow> rows = step.measure();
+        if (rows.empty()) late_.push_back(step.words);
+        for (BoardRow& row : rows) board_.rows.push_back(std::move(row));
     } catch (const DeviceError& error) {
         has_failed_ = true;
         board_.left_out.push_back(step.words + ": " + error.what());
@@ -153,10 +155,9 @@ void BoardRun::take(const Step& step) {
 }
 
 Board BoardRun::run() {
-    std::string late;
     for (const Step& step : steps_) {
         if (!plan_.begin() || is_interrupted_) {
-            late += (late.empty() ? "" : "; ") + step.words;
+            late_.push_back(step.words);
             continue;
         }
         take(step);
@@ -166,6 +167,8 @@ Board BoardRun::run() {
         }
         if (&step != &steps_.back() && step.words.starts_with("paths")) prefer_fastest();
     }
+    std::string late;
+    for (const std::string& words : late_) late += (late.empty() ? "" : "; ") + words;
     if (!late.empty())
         board_.left_out.push_back((is_interrupted_ ? "Stopped before: " : "There was no time for: ") + late +
                                   ".");

@@ -52,6 +52,7 @@ class BoardRun {
     std::vector<NamedOptions> scenes_;  ///< of the suite
     std::vector<Step> steps_;
     std::string doing_;
+    std::vector<std::string> late_;  ///< steps that there was no time for
     Board board_;
     bool is_interrupted_ = false, has_failed_ = false;
 

@@ -54,6 +54,11 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
     std::vector<const ErrorCurve*> curves;
     for (const ErrorCurve& curve : bench.curves)
         if (curve.scene == scene) curves.push_back(&curve);
+    // A setting looks the same in every plot, also where another has no curve.
+    const auto look_of = [&](std::size_t curve) {
+        const auto setting = std::ranges::find(bench.settings, curves[curve]->setting, &ErrorSetting::name);
+        return setting == bench.settings.end() ? curve : std::size_t(setting - bench.settings.begin());
+    };
     Limits x, y;
     std::string data;
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -87,7 +92,7 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
         script += format(
             "$curve%zu using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '%s' "
             "notitle, ",
-            i, pen_of(i).colour);
+            i, pen_of(look_of(i)).colour);
     // What independent samples give: the error falls with the square root of what is spent, from the first
     // curve's beginning.
     const auto first = std::find_if(curves[0]->points.begin(), curves[0]->points.end(),
@@ -97,7 +102,7 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
             format("%.9g * (x / %.9g)**-0.5 with lines lc rgb 'black' lw 1 dt (4,4) title 'slope -0.5', ",
                    std::sqrt(first->relmse.value), on_time ? first->seconds : first->spp);
     for (std::size_t i = 0; i < curves.size(); ++i)
-        script += format("$curve%zu using 1:2 with linespoints ", i) + line_style(i) + " title " +
+        script += format("$curve%zu using 1:2 with linespoints ", i) + line_style(look_of(i)) + " title " +
                   gnuplot_quoted(curves[i]->setting) + (i + 1 < curves.size() ? ", " : "\n");
     return script;
 }
