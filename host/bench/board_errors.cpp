@@ -64,20 +64,23 @@ class ErrorRunner {
                             .value = median_estimate(values),
                             .unit = unit};
         };
-        std::vector<double> efficiencies;
         for (std::size_t budget = 0; budget < budgets_; ++budget) {
             std::vector<double> errors, seconds;
-            efficiencies.clear();
-            for (const std::vector<ErrorReading>& run : runs_) {
+            for (const std::vector<ErrorReading>& run : runs_)
                 errors.push_back(run[budget].relmse), seconds.push_back(run[budget].seconds);
-                if (errors.back() > 0) efficiencies.push_back(1 / (errors.back() * seconds.back()));
-            }
             rows.push_back(of_this_way(BoardPart::error, errors, "relMSE"));
             rows.back().spp = runs_[0][budget].spp, rows.back().seconds = median(seconds);
         }
-        if (efficiencies.empty()) return rows;
+        if (budgets_ == 0) return rows;
+        // Errors fall faster than samples rise, and few runs have other errors than many: that of one seed at
+        // one number of samples is nearly the same everywhere, so that boards differ by their times alone.
+        std::size_t budget = 0;
+        while (budget + 1 < budgets_ && runs_[0][budget].spp < double(plan_.spp)) ++budget;
+        std::vector<double> efficiencies;
+        for (const std::vector<ErrorReading>& run : runs_)
+            efficiencies.push_back(1 / (runs_[0][budget].relmse * run[budget].seconds));
         rows.push_back(of_this_way(BoardPart::efficiency, efficiencies, "1/s"));
-        rows.back().spp = runs_[0][budgets_ - 1].spp;
+        rows.back().spp = runs_[0][budget].spp;
         judge(rows.back());
         return rows;
     }

@@ -36,10 +36,11 @@ struct BoardErrorPlan {
 /// How the pictures of a scene were found: what another way must find too, bit by bit.
 using FilmDigests = std::vector<std::string>;
 
-/// Rows of errors at 1, 2, 4 ... samples per pixel, and of efficiency, by the way that the device goes.
-/// Repetitions have seeds of their own; the first tells how far the time reaches. `go_on` is asked meanwhile.
-/// The row of efficiency is not right where the mean picture is not the known one (tiles, 1e-6 for all
-/// together), or the films of the first repetition are not those of `digests`, which the first way fills.
+/// Rows of errors at 1, 2, 4 ... samples per pixel, and of efficiency at those of the plan, by the way that
+/// the device goes: the error of the first repetition, the times of all. Repetitions have seeds of their own;
+/// the first tells how far the time reaches. `go_on` is asked meanwhile. The row of efficiency is not right
+/// where the mean picture is not the known one (tiles, 1e-6 for all together), or the films of the first
+/// repetition are not those of `digests`, which the first way fills.
 std::vector<BoardRow> measure_errors(Device& device, const BoardScene& scene, const BoardErrorPlan& plan,
                                      FilmDigests& digests, const std::function<bool()>& go_on);
 

@@ -81,8 +81,8 @@ class BoardFigures {
 std::string board_page(const std::vector<Board>& boards, const std::string& command) {
     BoardFigures figures;
     const ErrorBench errors = error_bench_of(boards);
-    const std::string speeds =
-        figures.figure(speed_plot_script(boards), "How many times as fast as A, measure by measure");
+    const std::string speeds = figures.figure(
+        speed_plot_script(boards), "How many times as fast as A the boards are; further right is better");
     const std::string efficiency = figures.figure(efficiency_plot_script(errors, "1 / (relMSE x seconds)"),
                                                   "Efficiency, scene by scene");
     std::string plots;

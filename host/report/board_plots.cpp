@@ -78,8 +78,7 @@ std::string speed_plot_script(const std::vector<Board>& boards) {
             ++row;
         }
     if (row == 0) return "";
-    std::string script =
-        plot_head("Times as fast as A, further right is better", 140 + 19.0 * (row + boards.size()));
+    std::string script = plot_head("Speed", 140 + 19.0 * (row + boards.size()));
     script +=
         "set logscale x 10\nset format x '%g'\nset xlabel 'times as fast as A'\nset key tmargin center\n";
     script += "set ytics (" + ticks + ") scale 0\n";
@@ -91,7 +90,7 @@ std::string speed_plot_script(const std::vector<Board>& boards) {
         plots += (plots.empty() ? "plot " : ", ") +
                  format("$board%zu using 1:2 with points pt %u ps 0.9 lc rgb '%s' title ", i,
                         unsigned(5 + 2 * (i % 5)), pen_of(i).colour) +
-                 gnuplot_quoted(board_letter(i) + ": " + boards[i].device.substr(0, 40));
+                 gnuplot_quoted(board_letter(i));
     }
     return script + plots + "\n";
 }

@@ -24,6 +24,7 @@ double rate_of(const BoardRow& row) {
 
 std::optional<double> BoardLine::speed_of(std::size_t board) const {
     if (!of_board[0] || !of_board[board] || part == BoardPart::check) return {};
+    if (of_board[0]->spp != of_board[board]->spp) return {};  // efficiency depends on how far a run went
     const double speed = rate_of(*of_board[board]) / rate_of(*of_board[0]);
     return std::isfinite(speed) && speed > 0 ? std::optional(speed) : std::nullopt;
 }
