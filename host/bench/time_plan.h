@@ -21,6 +21,8 @@ class TimePlan {
     double left() const { return limit_ - elapsed(); }
     /// What the step at hand may still take: its guess, or more where there is more for all later ones too.
     double left_of_step() const;
+    /// The same from its beginning, for a step that first compiles.
+    double of_step() const { return slice_; }
     /// Until the last step ends: the guesses, at the pace of those that have ended, but never beyond the
     /// limit.
     double estimate() const;

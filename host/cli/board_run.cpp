@@ -1,6 +1,7 @@
 #include "cli/board_run.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/log.h"
@@ -71,7 +72,7 @@ void BoardRun::add_errors(std::size_t first_scene, std::size_t last_scene, std::
                     set_way(device_, ways_[way]);
                     const BoardErrorPlan plan{.repetitions = settings_.is_quick || way > 0 ? 1u : 3u};
                     return measure_errors(device_, board_scene(scene, scenes_folder()), plan,
-                                          digests_[scene.name], [this] { return go_on(); });
+                                          digests_[scene.name], within_step());
                 });
 }
 
@@ -104,6 +105,14 @@ void BoardRun::add_steps() {
 bool BoardRun::tell() {
     is_interrupted_ |= !report_(doing_, plan_.elapsed(), plan_.estimate());
     return !is_interrupted_;
+}
+
+/// Compiling, before this is first asked, does not count: else there would be programs and no errors.
+std::function<bool()> BoardRun::within_step() {
+    return [this, end = std::optional<double>()]() mutable {
+        if (!end) end = plan_.elapsed() + plan_.of_step();
+        return tell() && plan_.elapsed() < *end && plan_.left() > 0;
+    };
 }
 
 bool BoardRun::go_on() { return tell() && plan_.left_of_step() > 0; }

@@ -65,6 +65,7 @@ class BoardRun {
     void take(const Step& step);
     bool tell();   ///< false: interrupted
     bool go_on();  ///< and the step's time is not over
+    std::function<bool()> within_step();
     std::vector<BoardRow> answers();
     void prefer_fastest();
 };
