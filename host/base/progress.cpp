@@ -20,9 +20,11 @@ unsigned terminal_columns() {
 
 std::string left_text(double seconds) { return seconds < 0 ? "?" : clock_time(seconds); }
 
-/// What is said of the error, and when the one that was asked for will be reached.
-std::string error_text(const ProgressState& state) {
-    std::string text = "relMSE " + relmse_text(state.relmse, state.trend);
+/// What is said of samples and error, and when the one that was asked for will be reached.
+std::string picture_text(const ProgressState& state, const char* between) {
+    if (!state.doing.empty()) return state.doing;
+    std::string text =
+        spp_text(state.spp) + " spp" + between + "relMSE " + relmse_text(state.relmse, state.trend);
     if (state.perceived_noise) text += format(", perceived noise %.2g", *state.perceived_noise);
     if (state.wanted_relmse > 0)
         text += format(", %.2g in ", state.wanted_relmse) + left_text(state.seconds_to_error);
@@ -62,9 +64,9 @@ std::string clock_time(double seconds) {
 }
 
 std::string bar_text(const ProgressState& state, unsigned columns) {
-    const std::string numbers = format(" %3.0f %%  %s left  %s spp  ", std::floor(100 * state.done),
-                                       left_text(state.seconds_left).c_str(), spp_text(state.spp).c_str()) +
-                                error_text(state);
+    const std::string numbers =
+        format(" %3.0f %%  %s left  ", std::floor(100 * state.done), left_text(state.seconds_left).c_str()) +
+        picture_text(state, "  ");
     // Two brackets, and the last column stays free: some terminals wrap when it is written.
     const int room = std::clamp(static_cast<int>(columns) - static_cast<int>(numbers.size()) - 3, 0, 50);
     if (room < 4) return numbers.substr(1, columns > 1 ? columns - 1 : 1);
@@ -73,16 +75,17 @@ std::string bar_text(const ProgressState& state, unsigned columns) {
 }
 
 std::string line_text(const ProgressState& state) {
-    return format("%.0f %% after %s, %s left, %s spp, ", std::floor(100 * state.done),
-                  clock_time(state.seconds).c_str(), left_text(state.seconds_left).c_str(),
-                  spp_text(state.spp).c_str()) +
-           error_text(state);
+    return format("%.0f %% after %s, %s left, ", std::floor(100 * state.done),
+                  clock_time(state.seconds).c_str(), left_text(state.seconds_left).c_str()) +
+           picture_text(state, ", ");
 }
 
 std::string json_text(const ProgressState& state) {
-    return format("{\"progress\": %.6g, \"seconds\": %.3f, \"seconds_left\": ", state.done, state.seconds) +
-           json_number(state.seconds_left, "%.3f") + format(", \"spp\": %.9g, \"relmse\": ", state.spp) +
-           json_number(state.relmse, "%.6g") +
+    const std::string begin =
+        format("{\"progress\": %.6g, \"seconds\": %.3f, \"seconds_left\": ", state.done, state.seconds) +
+        json_number(state.seconds_left, "%.3f");
+    if (!state.doing.empty()) return begin + ", \"doing\": \"" + state.doing + "\"}";
+    return begin + format(", \"spp\": %.9g, \"relmse\": ", state.spp) + json_number(state.relmse, "%.6g") +
            ", \"trend\": " + (state.trend ? format("%.4g", *state.trend) : "null") +
            ", \"seconds_to_error\": " + json_number(state.seconds_to_error, "%.3f") +
            ", \"perceived_noise\": " +

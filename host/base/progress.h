@@ -14,7 +14,7 @@ ProgressStyle automatic_progress();
 /// bar, lines, json, none; anything else is automatic.
 ProgressStyle progress_style(const std::string& name);
 
-/// How far a render is.
+/// How far a render is, or another job.
 struct ProgressState {
     double done = 0;                        ///< of the whole, 0 to 1
     double seconds = 0;                     ///< since the work began
@@ -25,6 +25,7 @@ struct ProgressState {
     double wanted_relmse = 0;               ///< 0: no error was asked for
     double seconds_to_error = -1;           ///< until it is reached; negative: not known yet
     std::optional<double> perceived_noise;  ///< on the panel that the picture is for; none: not known
+    std::string doing;  ///< of a job that is no render: what is said instead of samples and error
 };
 
 /// "0.0021 ~ spp^-1.02", or less while less is known.

@@ -11,9 +11,6 @@
 namespace triad {
 namespace {
 
-/// For counting work: few, since nothing but their mean is used.
-constexpr unsigned counted_samples = 4;
-
 double milliseconds(const DeviceCommand& command) { return 1e-6 * double(command.end - command.start); }
 
 /// The value that a share q of them does not exceed.
@@ -103,8 +100,8 @@ std::optional<double> KernelRow::roofline_share() const {
     return floor->seconds / seconds();
 }
 
-Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
-                const std::function<bool(unsigned, unsigned)>& report) {
+Profile profile_runs(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
+                     const std::function<bool(unsigned, unsigned)>& report) {
     Device& device = renderer.device();
     Profile p;
     p.device = device.info();
@@ -132,14 +129,24 @@ Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, 
     p.waiting = waiting_of(p.commands), p.host_between = host_between(p.commands);
     for (const DeviceCommand& command : p.commands) p.busy += 1e-3 * milliseconds(command);
     p.rows = rows_of(commands, device.kernels());
-    renderer.restart(seed);
-    p.counts = renderer.count_work(counted_samples);
-    p.tile_seconds = renderer.time_tiles(counted_samples);
-    p.peaks = peaks_of(device);
+    return p;
+}
+
+void add_costs(Profile& p, const WorkCounts& counts, const DevicePeaks& peaks) {
+    p.counts = counts, p.peaks = peaks;
     for (KernelRow& row : p.rows) {
-        row.cost = cost_of(row.kernel, p.counts, format_of(device), p.samples);
-        if (row.cost) row.floor = floor_of(*row.cost, p.peaks);
+        row.cost = cost_of(row.kernel, counts, *find_bvh_format(p.format), p.samples);
+        if (row.cost) row.floor = floor_of(*row.cost, peaks);
     }
+}
+
+Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
+                const std::function<bool(unsigned, unsigned)>& report) {
+    Profile p = profile_runs(renderer, goal, seed, runs, report);
+    renderer.restart(seed);
+    const WorkCounts counts = renderer.count_work(counted_samples);
+    p.tile_seconds = renderer.time_tiles(counted_samples);
+    add_costs(p, counts, peaks_of(renderer.device()));
     return p;
 }
 

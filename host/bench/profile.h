@@ -64,10 +64,20 @@ struct Profile {
     std::int64_t clock_offset = 0;        ///< of the host's clock from the device's, ns
 };
 
+/// Samples of each pixel whose work is counted: few, since nothing but their mean is used.
+constexpr unsigned counted_samples = 4;
+
 /// Renders the goal's samples so many times, each from an empty film and with a seed of its own, after a run
-/// that warms up with this one; the work is counted with it too. The renderer's only device must have a
-/// profiling queue. report(done, all) is called after each run and returns false to stop: what there is then
-/// is the profile.
+/// that warms up with this one. The renderer's only device must have a profiling queue. report(done, all) is
+/// called after each run and returns false to stop: what there is then is the profile. Nothing is in it of
+/// work, tiles and peaks.
+Profile profile_runs(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
+                     const std::function<bool(unsigned, unsigned)>& report);
+
+/// What the kernels had to do, of work that was counted on the same picture and nodes of the same format.
+void add_costs(Profile& profile, const WorkCounts& counts, const DevicePeaks& peaks);
+
+/// Both, with work counted, tiles timed and peaks measured after the runs.
 Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
                 const std::function<bool(unsigned, unsigned)>& report);
 

@@ -15,10 +15,6 @@ namespace {
 
 constexpr const char* schema = "triad.verdict/1";
 
-/// Of the quick cases those that each see something else: a few seconds with compilation.
-const std::vector<std::string> first_cases = {"L2",  "M10", "C18d", "C1",  "C2",  "C3", "C7", "C11c",
-                                              "C17", "R1",  "C4",   "C23", "C20", "D4", "D2"};
-
 fs::path path_of(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
     return kept_path(device, std::string("checked/") + name_of(driver) + "-" + name_of(format));
 }
@@ -30,6 +26,11 @@ std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
 }
 
 }  // namespace
+
+std::vector<CheckCase> first_cases() {
+    return cases_of(CheckLevel::quick, {"L2", "M10", "C18d", "C1", "C2", "C3", "C7", "C11c", "C17", "R1",
+                                        "C4", "C23", "C20", "D4", "D2"});
+}
 
 std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
     const fs::path path = path_of(device, format, driver);
@@ -73,8 +74,8 @@ Verdict ensure_checked(Device& device) {
     if (const auto kept = load_verdict(device.info(), format, path_driver_of(device))) return *kept;
     inform("First use of " + device.info().name +
            " with this driver: a few seconds to check that its answers are right.");
-    const Verdict verdict = verdict_of(run_cases(device, cases_of(CheckLevel::quick, first_cases),
-                                                 CheckLevel::quick, [](const CheckResult&) {}));
+    const Verdict verdict =
+        verdict_of(run_cases(device, first_cases(), CheckLevel::quick, [](const CheckResult&) {}));
     keep_verdict(device.info(), format, verdict, path_driver_of(device));
     return verdict;
 }

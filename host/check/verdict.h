@@ -25,6 +25,9 @@ void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& ver
 
 Verdict verdict_of(const std::vector<CheckResult>& results);
 
+/// Of the quick cases those that each see something else: a few seconds with compilation.
+std::vector<CheckCase> first_cases();
+
 /// Before a device is used: the kept verdict, or that of the first cases, a few seconds' worth, which says
 /// so.
 Verdict ensure_checked(Device& device);

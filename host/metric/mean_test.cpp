@@ -30,27 +30,42 @@ Doubt doubt_of(const TileMeans::Tile& tile, double films) {
 
 }  // namespace
 
-void TileMeans::add(const Film& film) {
-    if (films == 0) {
-        width = film.width, height = film.height;
-        tiles.resize((std::size_t(tiles_along(width)) * tiles_along(height) + 1) * 3);
+void TileMeans::begin(unsigned across, unsigned down) {
+    width = across, height = down;
+    tiles.resize((std::size_t(tiles_along(width)) * tiles_along(height) + 1) * 3);
+}
+
+void TileMeans::add(std::size_t pixel, unsigned channel, double mean, double variance) {
+    const std::size_t x = pixel % width, y = pixel / width;
+    const std::size_t tile = y / tile_edge * tiles_along(width) + x / tile_edge;
+    for (Tile* t : {&tiles[tile * 3 + channel], &tiles[tiles.size() - 3 + channel]}) {
+        t->sum += mean, t->variance += variance, t->variance_squares += variance * variance;
+        t->pixels += films == 1;
     }
+}
+
+void TileMeans::add(const Film& film) {
+    if (films == 0) begin(film.width, film.height);
     const std::vector<float> variance = mean_variance(film);
     if (film.width != width || film.height != height || variance.empty())
         throw std::invalid_argument("films to compare must have one size and samples in both halves");
     ++films;
     samples += film.sample_numbers().mean;
     for (std::size_t p = 0; p < film.pixels(); ++p) {
-        const std::size_t x = p % width, y = p / width;
-        const std::size_t tile = y / tile_edge * tiles_along(width) + x / tile_edge;
         const auto mean = pixel_mean(film, p);
-        for (std::size_t c = 0; c < 3; ++c)
-            for (Tile* t : {&tiles[tile * 3 + c], &tiles[tiles.size() - 3 + c]}) {
-                const double v = variance[3 * p + c];
-                t->sum += mean[c], t->variance += v, t->variance_squares += v * v;
-                t->pixels += films == 1;
-            }
+        for (unsigned c = 0; c < 3; ++c) add(p, c, mean[c], variance[3 * p + c]);
     }
+}
+
+TileMeans tiles_of_picture(const RgbImage& picture, double relmse, double spp) {
+    TileMeans means;
+    means.begin(picture.width, picture.height);
+    means.films = 1, means.samples = spp;
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) {
+        const double r = picture.rgb[i];
+        means.add(i / 3, i % 3, r, relmse * (r * r + 0.01));
+    }
+    return means;
 }
 
 MeanTest test_means(const TileMeans& films, const TileMeans& reference, double family) {

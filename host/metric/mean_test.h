@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rgb_image.h"
 #include "scene/film.h"
 
 namespace triad {
@@ -24,7 +25,14 @@ struct TileMeans {
 
     /// Adds a film; all of one size, with samples in both halves, independent of each other.
     void add(const Film& film);
+
+    void begin(unsigned across, unsigned down);  ///< without a film
+    void add(std::size_t pixel, unsigned channel, double mean, double variance);
 };
+
+/// Those of a picture of which no film is left: its noise, a relMSE, is spread over the pixels as relMSE
+/// weighs them.
+TileMeans tiles_of_picture(const RgbImage& picture, double relmse, double spp);
 
 struct MeanTest {
     bool same = true;

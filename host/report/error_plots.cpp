@@ -54,6 +54,11 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
     std::vector<const ErrorCurve*> curves;
     for (const ErrorCurve& curve : bench.curves)
         if (curve.scene == scene) curves.push_back(&curve);
+    // A setting looks the same in every plot, also where another has no curve.
+    const auto look_of = [&](std::size_t curve) {
+        const auto setting = std::ranges::find(bench.settings, curves[curve]->setting, &ErrorSetting::name);
+        return setting == bench.settings.end() ? curve : std::size_t(setting - bench.settings.begin());
+    };
     Limits x, y;
     std::string data;
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -87,7 +92,7 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
         script += format(
             "$curve%zu using 1:3:4 with filledcurves fs transparent solid 0.18 noborder lc rgb '%s' "
             "notitle, ",
-            i, pen_of(i).colour);
+            i, pen_of(look_of(i)).colour);
     // What independent samples give: the error falls with the square root of what is spent, from the first
     // curve's beginning.
     const auto first = std::find_if(curves[0]->points.begin(), curves[0]->points.end(),
@@ -97,12 +102,12 @@ std::string error_plot_script(const ErrorBench& bench, const std::string& scene,
             format("%.9g * (x / %.9g)**-0.5 with lines lc rgb 'black' lw 1 dt (4,4) title 'slope -0.5', ",
                    std::sqrt(first->relmse.value), on_time ? first->seconds : first->spp);
     for (std::size_t i = 0; i < curves.size(); ++i)
-        script += format("$curve%zu using 1:2 with linespoints ", i) + line_style(i) + " title " +
+        script += format("$curve%zu using 1:2 with linespoints ", i) + line_style(look_of(i)) + " title " +
                   gnuplot_quoted(curves[i]->setting) + (i + 1 < curves.size() ? ", " : "\n");
     return script;
 }
 
-std::string efficiency_plot_script(const ErrorBench& bench) {
+std::string efficiency_plot_script(const ErrorBench& bench, const std::string& unit) {
     const std::size_t settings = bench.settings.size();
     Limits x;
     std::vector<std::string> data(settings);
@@ -126,33 +131,22 @@ std::string efficiency_plot_script(const ErrorBench& bench) {
     }
     if (x.empty()) return "";
     const double rows = double(bench.scenes.size() * (settings + 1));
-    const double left = std::pow(10.0, std::floor(std::log10(x.low) - 0.3));
-    std::string script = plot_head("Efficiency: 1 / (MSE x seconds), longer is better",
+    std::string script = plot_head("Efficiency: " + unit + ", further right is better",
                                    120 + 19 * double(settings) + 24 * rows);
-    script +=
-        "set xlabel '1 / (MSE x seconds)'\nset logscale x 10\nset format x '%g'\nunset "
-        "grid\nset grid xtics "
-        "lc rgb '#888888' lw 0.5 dt 1\n";
+    script += "set xlabel " + gnuplot_quoted(unit) + "\nset logscale x 10\nset format x '%g'\n";
     script += "set key tmargin center\nset ytics (" + ticks + ") scale 0\n";
-    script +=
-        format("set xrange [%.9g:%.9g]\nset yrange [%.9g:1]\nset bars 0.4\n", left, x.high * 1.5, -rows + 1);
-    for (std::size_t j = 0; j < settings; ++j) script += format("$bars%zu << EOD\n", j) + data[j] + "EOD\n";
+    script += format("set xrange [%.9g:%.9g]\nset yrange [%.9g:1]\nset bars 0.4\n", x.low / 1.5, x.high * 1.5,
+                     -rows + 1);
+    for (std::size_t j = 0; j < settings; ++j) script += format("$values%zu << EOD\n", j) + data[j] + "EOD\n";
     script += "plot ";
     for (std::size_t j = 0; j < settings; ++j) {
         if (data[j].empty()) continue;
-        const std::string name = format("$bars%zu", j);
         if (script.back() != ' ') script += ", ";
-        script += name +
-                  format(
-                      " using (%.9g):2:(%.9g):1:($2-0.4):($2+0.4) with boxxyerror fs %s border lc rgb '%s' "
-                      "lc rgb '%s' title ",
-                      left, left, j % 2 ? format("pattern %u", unsigned(3 + j) % 8).c_str() : "solid 0.75",
-                      pen_of(j).colour, pen_of(j).colour) +
-                  gnuplot_quoted(bench.settings[j].name) + ", " + name +
-                  " using 1:2:3:4 with xerrorbars lc rgb 'black' lw 1 pt 0 notitle";
-        script += j + 1 < settings ? ", " : "\n";
+        script += format("$values%zu using 1:2:3:4 with xerrorbars lw 1.5 pt %d ps 0.8 lc rgb '%s' title ", j,
+                         markers[j % std::size(markers)], pen_of(j).colour) +
+                  gnuplot_quoted(bench.settings[j].name);
     }
-    return script;
+    return script + "\n";
 }
 
 ErrorPlots draw_error_plots(const ErrorBench& bench) {
@@ -172,7 +166,8 @@ ErrorPlots draw_error_plots(const ErrorBench& bench) {
              {number + slug(name) + "-time.svg", name,
               "Relative error of " + name + " against seconds, one curve per setting"});
     }
-    draw(efficiency_plot_script(bench), {"efficiency.svg", "", "Efficiency of every setting on every scene"});
+    draw(efficiency_plot_script(bench, "1 / (MSE x seconds)"),
+         {"efficiency.svg", "", "Efficiency of every setting on every scene"});
     return result;
 }
 

@@ -24,6 +24,7 @@ ErrorPlots draw_error_plots(const ErrorBench& bench);
 
 /// The script of one plot, with its data inside. `on_time`: against seconds, else against samples per pixel.
 std::string error_plot_script(const ErrorBench& bench, const std::string& scene, bool on_time);
-std::string efficiency_plot_script(const ErrorBench& bench);
+/// A line for each scene and setting, a point with its interval on a logarithmic axis.
+std::string efficiency_plot_script(const ErrorBench& bench, const std::string& unit);
 
 }  // namespace triad

@@ -8,7 +8,6 @@
 #include "base/machine.h"
 #include "report/error_pictures.h"
 #include "report/error_plots.h"
-#include "report/error_report_style.h"
 #include "report/error_words.h"
 #include "report/html.h"
 #include "report/report.h"
@@ -223,18 +222,12 @@ std::vector<std::filesystem::path> write_error_report(const std::filesystem::pat
     for (const ErrorPlot& plot : plots.plots) write_file(written.emplace_back(folder / plot.file), plot.svg);
     if (!plots.missing.empty()) warn(plots.missing + " The rest of the report is complete.");
 
-    std::string html =
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-        html_escape(head.title) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" +
-        error_report_style + "</style></head><body>\n" + head_html(bench, head) + summary_html(bench) +
-        how_to_read + changes_html(bench);
+    std::string html = head_html(bench, head) + summary_html(bench) + how_to_read + changes_html(bench);
     if (!plots.missing.empty()) html += "<p class=\"bad\">" + html_escape(plots.missing) + "</p>\n";
     const std::string efficiency = plot_html(plots, "");
     if (!efficiency.empty()) html += "<h2>Efficiency</h2>\n<div class=\"wide\">" + efficiency + "</div>\n";
     for (const ErrorScene& scene : bench.scenes) html += scene_html(bench, scene, plots);
-    html += "</body></html>\n";
-    write_file(written.emplace_back(folder / "report.html"), html);
+    write_file(written.emplace_back(folder / "report.html"), html_page(head.title, "", html));
     return written;
 }
 

@@ -45,7 +45,7 @@ details { margin: 1rem 0; } summary { cursor: pointer; font-weight: 600; }
   table, tbody, tr, td, tbody th { display: block; width: 100%; }
   tr { border: 1px solid var(--line); border-radius: .4rem; margin: .75rem 0; padding: .3rem 0; background: var(--card); }
   td, tbody th { border: 0; padding: .15rem .6rem; display: grid; grid-template-columns: 8.5rem 1fr; column-gap: .5rem; }
-  td small, td .v { grid-column: 2; }
+  td small, td .v { grid-column: 2; } td small { white-space: normal; }
   td::before, tbody th::before { content: attr(data-label); color: var(--soft); font-weight: 400; grid-column: 1; }
   td.n { white-space: normal; }
 }

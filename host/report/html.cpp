@@ -1,5 +1,7 @@
 #include "report/html.h"
 
+#include "report/error_report_style.h"
+
 namespace triad {
 namespace {
 
@@ -65,6 +67,31 @@ std::string base64(std::span<const std::uint8_t> bytes) {
 
 std::string data_uri(std::string_view media_type, std::span<const std::uint8_t> bytes) {
     return "data:" + std::string(media_type) + ";base64," + base64(bytes);
+}
+
+std::string html_page(std::string_view title, std::string_view css, std::string_view body) {
+    std::string html =
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+        "content=\"width=device-width, initial-scale=1\">\n<title>" +
+        html_escape(title) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" + error_report_style;
+    return html.append(css).append("</style></head><body>\n").append(body) + "</body></html>\n";
+}
+
+std::string number_cell(std::string_view label, std::string_view text, std::string_view below) {
+    return "<td class=\"n\" data-label=\"" + html_escape(label) + "\"><span class=\"v\">" +
+           html_escape(text) + "</span>" +
+           (below.empty() ? "" : "<small>" + html_escape(below) + "</small>") + "</td>";
+}
+
+std::string text_cell(std::string_view label, std::string_view text) {
+    return "<td data-label=\"" + html_escape(label) + "\"><span class=\"v\">" + html_escape(text) +
+           "</span></td>";
+}
+
+std::string svg_figure(std::string_view svg, std::string_view words) {
+    return "<figure><img alt=\"" + html_escape(words) + "\" src=\"" +
+           data_uri("image/svg+xml", {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()}) +
+           "\"><figcaption>" + html_escape(words) + "</figcaption></figure>\n";
 }
 
 }  // namespace triad

@@ -10,7 +10,6 @@
 #include "base/text.h"
 #include "kernels/types.h"
 #include "report/error_pictures.h"
-#include "report/error_report_style.h"
 #include "report/gnuplot.h"
 #include "report/html.h"
 #include "report/profile_line.h"
@@ -30,11 +29,6 @@ svg .k4 { fill: #e69f00; } svg .k5 { fill: #56b4e9; } svg .k6 { fill: #888; }
 .maps img { image-rendering: pixelated; }
 )css";
 
-std::string cell(const std::string& label, const std::string& text) {
-    return "<td class=\"n\" data-label=\"" + label + "\"><span class=\"v\">" + html_escape(text) +
-           "</span></td>";
-}
-
 std::string number_or_dash(double v, const char* pattern) { return v > 0 ? format(pattern, v) : "-"; }
 
 std::string kernels_html(const Profile& p) {
@@ -46,14 +40,14 @@ std::string kernels_html(const Profile& p) {
         html += "<td data-label=\"Share\"><div class=\"v\"><div class=\"bar\"><i style=\"width:" +
                 format("%.1f", 100 * r.share) + "%\"></i></div>" + format("%.1f %%", 100 * r.share) +
                 "</div></td>";
-        html += cell("ms of a run", format("%.1f (%.1f to %.1f)", r.ms.value, r.ms.low, r.ms.high));
-        html += cell("Launches", format("%.0f", double(r.launches) / p.runs));
-        html += cell("Median, p95 ms", format("%.3f, %.3f", r.ms_median, r.ms_p95));
-        html += cell("M items/s", number_or_dash(1e-6 * r.items_per_s, "%.2f"));
-        html += cell("GB/s", number_or_dash(1e-9 * r.bytes_per_s(), "%.2f"));
-        html += cell("GFLOP/s", number_or_dash(1e-9 * r.flops_per_s(), "%.2f"));
-        html += cell("Of the roof",
-                     r.floor ? format("%.0f %% of ", 100 * *r.roofline_share()) + r.floor->by : "-");
+        html += number_cell("ms of a run", format("%.1f (%.1f to %.1f)", r.ms.value, r.ms.low, r.ms.high));
+        html += number_cell("Launches", format("%.0f", double(r.launches) / p.runs));
+        html += number_cell("Median, p95 ms", format("%.3f, %.3f", r.ms_median, r.ms_p95));
+        html += number_cell("M items/s", number_or_dash(1e-6 * r.items_per_s, "%.2f"));
+        html += number_cell("GB/s", number_or_dash(1e-9 * r.bytes_per_s(), "%.2f"));
+        html += number_cell("GFLOP/s", number_or_dash(1e-9 * r.flops_per_s(), "%.2f"));
+        html += number_cell("Of the roof",
+                            r.floor ? format("%.0f %% of ", 100 * *r.roofline_share()) + r.floor->by : "-");
         html += "</tr>\n";
     }
     return html + "</tbody></table>\n";
@@ -68,11 +62,12 @@ std::string rays_html(const WorkCounts& c) {
         const RayCounts& r = c.rays[kind];
         const double n = double(std::max<std::uint64_t>(1, r.rays));
         html += std::string("<tr><th data-label=\"Rays\">") + ray_kind(kind) + "</th>" +
-                cell("Per sample", format("%.3f", double(r.rays) / samples)) +
-                cell("Nodes", format("%.2f", double(r.nodes) / n)) +
-                cell("Leaves", format("%.2f", double(r.blocks) / n)) +
-                cell("Triangles", format("%.2f", double(r.triangles) / n)) +
-                cell("Stack, deepest", format("%.2f, %u", double(r.deepest_sum) / n, r.deepest)) + "</tr>\n";
+                number_cell("Per sample", format("%.3f", double(r.rays) / samples)) +
+                number_cell("Nodes", format("%.2f", double(r.nodes) / n)) +
+                number_cell("Leaves", format("%.2f", double(r.blocks) / n)) +
+                number_cell("Triangles", format("%.2f", double(r.triangles) / n)) +
+                number_cell("Stack, deepest", format("%.2f, %u", double(r.deepest_sum) / n, r.deepest)) +
+                "</tr>\n";
     }
     return html + "</tbody></table>\n";
 }
@@ -115,9 +110,9 @@ std::string peaks_html(const Profile& p) {
         "reads/s</th></tr></thead><tbody>\n";
     for (const MemoryPeak& m : p.peaks.memory)
         html += "<tr><th data-label=\"Data in\">" + bytes_text(m.bytes) + "</th>" +
-                cell("Read GB/s", format("%.1f", 1e-9 * m.read)) +
-                cell("Copy GB/s", format("%.1f", 1e-9 * m.copy)) +
-                cell("M dependent reads/s", format("%.1f", 1e-6 * m.gathers)) + "</tr>\n";
+                number_cell("Read GB/s", format("%.1f", 1e-9 * m.read)) +
+                number_cell("Copy GB/s", format("%.1f", 1e-9 * m.copy)) +
+                number_cell("M dependent reads/s", format("%.1f", 1e-6 * m.gathers)) + "</tr>\n";
     return html + "</tbody></table>\n";
 }
 
@@ -207,21 +202,19 @@ std::string profile_page(const std::vector<Profile>& profiles, const std::vector
     std::string missing, devices;
     for (const Profile& p : profiles) devices += device_html(p, spans, missing);
     if (!missing.empty()) warn(missing + " The rest of the page is complete.");
-    return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-           "content=\"width=device-width, initial-scale=1\">\n<title>Triad profile</title>\n<link "
-           "rel=\"icon\" "
-           "href=\"data:,\">\n<style>" +
-           std::string(error_report_style) + style +
-           "</style></head><body>\n<h1>Where the time goes</h1>\n<dl><dt>Command</dt><dd><code>" +
-           html_escape(command) + "</code></dd><dt>Date</dt><dd>" + date_words() +
-           "</dd><dt>Machine</dt><dd>" + html_escape(machine_words()) +
-           "</dd><dt>Triad</dt><dd>" TRIAD_VERSION "</dd></dl>\n" +
-           (missing.empty() ? "" : "<p class=\"bad\">" + html_escape(missing) + "</p>\n") + devices +
-           "<p class=\"soft\">Visits are counted by an instrumented program on other samples of the picture; "
-           "bytes, operations (of boxes and triangles alone, not of shading) and dependent reads follow by "
-           "formula. "
-           "The roof is the least time that reading these bytes, doing these operations or waiting for these "
-           "reads would take with all data in the nearest cache.</p>\n</body></html>\n";
+    return html_page(
+        "Triad profile", style,
+        std::string("<h1>Where the time goes</h1>\n<dl><dt>Command</dt><dd><code>") + html_escape(command) +
+            "</code></dd><dt>Date</dt><dd>" + date_words() + "</dd><dt>Machine</dt><dd>" +
+            html_escape(machine_words()) + "</dd><dt>Triad</dt><dd>" TRIAD_VERSION "</dd></dl>\n" +
+            (missing.empty() ? "" : "<p class=\"bad\">" + html_escape(missing) + "</p>\n") + devices +
+            "<p class=\"soft\">Visits are counted by an instrumented program on other samples of the "
+            "picture; "
+            "bytes, operations (of boxes and triangles alone, not of shading) and dependent reads follow by "
+            "formula. "
+            "The roof is the least time that reading these bytes, doing these operations or waiting for "
+            "these "
+            "reads would take with all data in the nearest cache.</p>\n");
 }
 
 }  // namespace triad

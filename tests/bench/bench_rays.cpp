@@ -12,10 +12,11 @@
 #include <thread>
 
 #include "base/parallel_for.h"
+#include "bench/ray_sets.h"
+#include "bench/tree_tracer.h"
 #include "clock.h"
 #include "embree_tracer.h"
 #include "trace/node_format.h"
-#include "triad_tracer.h"
 
 using namespace triad;
 using namespace triad::bench;
@@ -73,90 +74,6 @@ Options parse(int argc, char** argv) {
     return options;
 }
 
-dev::Ray make_ray(const vec3& origin, const vec3& direction, float t_max, std::uint32_t skip) {
-    dev::Ray ray{};
-    for (int a = 0; a < 3; ++a) ray.origin[a] = origin[a], ray.direction[a] = direction[a];
-    ray.t_max = t_max;
-    ray.skip_instance = skip == TRIAD_NONE ? TRIAD_NONE : 0;
-    ray.skip_primitive = skip;
-    return ray;
-}
-
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// One ray per pixel in tiles of 8 x 8.
-std::vector<dev::Ray> primary_rays(const BenchScene& scene, unsigned size) {
-    const vec3 forward = glm::normalize(scene.target - scene.eye);
-    const vec3 right = glm::normalize(glm::cross(forward, vec3(0, 1, 0))), up = glm::cross(right, forward);
-    std::vector<dev::Ray> rays;
-    for (unsigned i = 0; i < size * size; ++i) {
-        const unsigned tile = i / 64, x = tile % (size / 8) * 8 + i % 8,
-                       y = tile / (size / 8) * 8 + i % 64 / 8;
-        const float u = (float(x) + 0.5f) / float(size) * 2 - 1, v = 1 - (float(y) + 0.5f) / float(size) * 2;
-        rays.push_back(make_ray(scene.eye, glm::normalize(forward + scene.half_height * (u * right + v * up)),
-                                infinity, TRIAD_NONE));
-    }
-    return rays;
-}
-
-/// Where a ray hit, a little before the surface, so that Embree, which cannot skip a triangle, sees the same
-/// scene.
-struct Point {
-    vec3 position, normal;
-    std::uint32_t primitive;
-};
-std::vector<Point> points_of(const BenchScene& scene, const std::vector<dev::Ray>& rays,
-                             const std::vector<dev::Hit>& hits) {
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (hits[i].primitive == TRIAD_NONE) continue;
-        const uvec3 t = scene.mesh.triangles[hits[i].primitive];
-        const vec3 a = scene.mesh.positions[t.x], b = scene.mesh.positions[t.y],
-                   c = scene.mesh.positions[t.z];
-        const vec3 d(rays[i].direction[0], rays[i].direction[1], rays[i].direction[2]);
-        vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-        if (glm::dot(normal, d) > 0) normal = -normal;
-        points.push_back({a + hits[i].u * (b - a) + hits[i].v * (c - a) + 1e-4f * scene.reach * normal,
-                          normal, hits[i].primitive});
-    }
-    return points;
-}
-
-class Random {
-  public:
-    float operator()() { return float(engine_() >> 8) * 0x1p-24f; }
-
-  private:
-    std::mt19937 engine_{1};
-};
-
-/// A cosine-distributed direction from every point.
-std::vector<dev::Ray> diffuse_rays(const std::vector<Point>& points) {
-    Random random;
-    std::vector<dev::Ray> rays;
-    for (const Point& p : points) {
-        const float phi = 2 * float(pi) * random(), z = 2 * random() - 1,
-                    r = std::sqrt(std::max(0.0f, 1 - z * z));
-        const vec3 direction = p.normal * 1.0001f + vec3(r * std::cos(phi), r * std::sin(phi), z);
-        rays.push_back(make_ray(p.position, glm::normalize(direction), infinity, p.primitive));
-    }
-    return rays;
-}
-
-/// To a random point of the light, where the surface faces it; the segment ends a little before it.
-std::vector<dev::Ray> shadow_rays(const BenchScene& scene, const std::vector<Point>& points) {
-    Random random;
-    std::vector<dev::Ray> rays;
-    for (const Point& p : points) {
-        const float u = random(), v = random();
-        const vec3 to_light = scene.light + u * scene.light_u + v * scene.light_v - p.position;
-        if (glm::dot(to_light, p.normal) <= 0) continue;
-        const float distance = glm::length(to_light);
-        rays.push_back(make_ray(p.position, to_light / distance, 0.999f * distance, p.primitive));
-    }
-    return rays;
-}
-
 /// Differences that are no matter of an edge or of two surfaces at one distance.
 std::size_t count_differences(const std::vector<dev::Hit>& a, const std::vector<dev::Hit>& b, float reach) {
     std::size_t differences = 0;
@@ -178,11 +95,16 @@ struct Peers {
     std::unique_ptr<EmbreeTracer> plain, robust;
 };
 
-nlohmann::json measure(const BenchScene& scene, const std::string& kind, const std::vector<dev::Ray>& rays,
-                       TriadTracer& tracer, const Peers& peers, unsigned rounds) {
+nlohmann::json measure(const RayScene& scene, const std::string& kind, const std::vector<dev::Ray>& rays,
+                       TreeTracer& tracer, const Peers& peers, unsigned rounds) {
     const bool occlusion = kind == "shadow";
     tracer.set_rays(rays);
-    tracer.trace(occlusion);
+    const auto traced = [&] {
+        const double start = now();
+        tracer.trace(occlusion);
+        return now() - start;
+    };
+    traced();
     std::vector<dev::Hit> hits(rays.size());
     std::vector<std::uint32_t> occluded(rays.size());
     const auto embree = [&](const EmbreeTracer& peer) {
@@ -211,7 +133,7 @@ nlohmann::json measure(const BenchScene& scene, const std::string& kind, const s
     }
     std::vector<double> triad, plain, robust;
     for (unsigned round = 0; round < rounds; ++round) {
-        triad.push_back(tracer.trace(occlusion));
+        triad.push_back(traced());
         if (!peers.plain) continue;
         plain.push_back(embree(*peers.plain));
         robust.push_back(embree(*peers.robust));
@@ -257,8 +179,8 @@ int run(int argc, char** argv) {
                 device.info().name.c_str(), options.threads, options.rounds, "scene", "rays", "triad",
                 "embree", "robust", "ratio", "ratio-r", "differ");
     for (const std::string& name : options.scenes) {
-        const BenchScene scene = make_scene(name);
-        TriadTracer tracer(device, scene);
+        const RayScene scene = make_ray_scene(name);
+        TreeTracer tracer(device, scene);
         Peers peers;
         if (EmbreeTracer::available()) {
             peers.plain = std::make_unique<EmbreeTracer>(scene, false);
@@ -270,10 +192,10 @@ int run(int argc, char** argv) {
         };
         const auto primary = primary_rays(scene, options.size);
         add("primary", primary);
-        const auto seen = points_of(scene, primary, tracer.hits());
+        const auto seen = ends_of(scene, primary, tracer.hits());
         const auto diffuse = diffuse_rays(seen);
         add("diffuse", diffuse);
-        add("shadow", shadow_rays(scene, points_of(scene, diffuse, tracer.hits())));
+        add("shadow", shadow_rays(scene, ends_of(scene, diffuse, tracer.hits())));
         set_host_threads(0);
         const double triangles = double(scene.mesh.triangles.size());
         report["builds"].push_back(

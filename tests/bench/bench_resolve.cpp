@@ -4,58 +4,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
-#include <random>
 #include <vector>
 
+#include "bench/display_bench.h"
 #include "display/reconstruction.h"
 
 using namespace triad;
 
 namespace {
 
-constexpr unsigned width = 3840, height = 270;
-constexpr int rounds = 5;
-
-Film random_film() {
-    std::mt19937 random(1);
-    Film film;
-    film.full_width = film.width = width, film.full_height = film.height = height;
-    film.bins_x = film.bins_y = 3;
-    film.quanta_log2 = 30;
-    film.sums.resize(film.pixels() * film.bins() * 4);
-    for (std::size_t i = 0; i < film.sums.size(); ++i)
-        film.sums[i] =
-            i % 4 == 3 ? std::int64_t(1) << 30 : std::int64_t(random() % 4 ? random() >> 3 : random());
-    film.samples.assign(film.pixels(), 18);
-    film.ranges = {{0, 18}};
-    film.half_sums.resize(film.pixels() * 3);
-    for (std::int64_t& sum : film.half_sums) sum = std::int64_t(random()) * 9 / 2;
-    return film;
-}
-
-/// Median over rounds of the milliseconds per megapixel of each kernel.
-std::map<std::string, double> measure(const std::string& selector, const Film& film,
-                                      const DisplaySettings& settings) {
-    std::map<std::string, std::vector<double>> all;
-    Device device = Device::open({.selector = selector, .profile = true});
-    resolve_display(device, film, settings);  // compiles
-    std::map<std::string, KernelTime> before = device.times();
-    for (int i = 0; i < rounds; ++i) {
-        resolve_display(device, film, settings);
-        const std::map<std::string, KernelTime> after = device.times();
-        for (const auto& [kernel, time] : after)
-            all[kernel].push_back((time.seconds - before[kernel].seconds) * 1e3 /
-                                  (double(film.pixels()) * 1e-6));
-        before = after;
-    }
-    std::map<std::string, double> medians;
-    for (auto& [kernel, values] : all) {
-        std::sort(values.begin(), values.end());
-        medians[kernel] = values[values.size() / 2];
-    }
-    return medians;
-}
+constexpr unsigned rounds = 5;
 
 /// Bytes per second, read and written, of a kernel that copies as many floats as the planes of bins hold, in
 /// runs of the shape's lanes.
@@ -73,7 +31,7 @@ double copy_speed(const std::string& selector, const Film& film) {
     device.fill_zero(from);
     std::vector<double> speeds;
     double before = 0;
-    for (int i = 0; i <= rounds; ++i) {
+    for (unsigned i = 0; i <= rounds; ++i) {
         device.run(program.kernel("copy"), Arguments().add(from).add(to).add(std::uint32_t(items)), items);
         device.finish();
         const double now = device.times()["copy"].seconds;
@@ -88,13 +46,15 @@ double copy_speed(const std::string& selector, const Film& film) {
 
 int main(int argc, char** argv) try {
     const std::string selector = argc > 1 ? argv[1] : "";
-    const Film film = random_film();
+    const Film film = noise_film();
     std::printf("Milliseconds per megapixel, kernel by kernel\n");
     const double copies = copy_speed(selector, film);
     std::printf("%-44s %.1f GB/s\n", "copying", copies * 1e-9);
     const auto print = [&](const char* what, const DisplaySettings& settings) {
         std::printf("%-44s", what);
-        for (const auto& [kernel, ms] : measure(selector, film, settings)) {
+        Device device = Device::open({.selector = selector, .profile = true});
+        for (const auto& [kernel, of] : time_display(device, film, settings, rounds)) {
+            const double ms = of.value;
             std::printf(" %s %.2f", kernel.c_str(), ms);
             // three channels of nine bins in, one out; two passes: three columns of sums between them
             const double floats = settings.taps->outputs[0].across.empty() ? 27 + 3 : 27 + 2 * 9 + 3;

@@ -41,7 +41,7 @@ struct EmbreeTracer::State {
 
 bool EmbreeTracer::available() { return true; }
 
-EmbreeTracer::EmbreeTracer(const BenchScene& scene, bool robust) : state_(std::make_unique<State>()) {
+EmbreeTracer::EmbreeTracer(const RayScene& scene, bool robust) : state_(std::make_unique<State>()) {
     const RTCGeometry geometry = rtcNewGeometry(state_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto& [positions, triangles] = std::tie(scene.mesh.positions, scene.mesh.triangles);
     auto* vertex = static_cast<vec3*>(rtcSetNewGeometryBuffer(
@@ -98,7 +98,7 @@ double EmbreeTracer::build_seconds() const { return state_->build_seconds; }
 
 struct EmbreeTracer::State {};
 bool EmbreeTracer::available() { return false; }
-EmbreeTracer::EmbreeTracer(const BenchScene&, bool) {}
+EmbreeTracer::EmbreeTracer(const RayScene&, bool) {}
 double EmbreeTracer::closest(const std::vector<dev::Ray>&, std::vector<dev::Hit>&) const { return 0; }
 double EmbreeTracer::occluded(const std::vector<dev::Ray>&, std::vector<std::uint32_t>&) const { return 0; }
 double EmbreeTracer::build_seconds() const { return 0; }

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "bench_scenes.h"
+#include "bench/ray_scenes.h"
 #include "kernels/types.h"
 
 namespace triad::bench {
@@ -13,7 +13,7 @@ class EmbreeTracer {
     static bool available();
 
     /// `robust` sets RTC_SCENE_FLAG_ROBUST; build quality is medium.
-    EmbreeTracer(const BenchScene& scene, bool robust);
+    EmbreeTracer(const RayScene& scene, bool robust);
     ~EmbreeTracer();
 
     /// Seconds of one pass over the rays, on the threads of parallel_for.

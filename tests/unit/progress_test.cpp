@@ -49,3 +49,11 @@ TEST(Progress, json_says_null_for_what_is_not_known) {
               R"({"progress": 0.5, "seconds": 2.000, "seconds_left": 2.000, "spp": 8, "relmse": 0.25, )"
               R"("trend": -0.5, "seconds_to_error": 14.000, "perceived_noise": 1.5})");
 }
+
+TEST(Progress, a_job_that_is_no_render_says_what_it_does) {
+    const ProgressState state{.done = 0.25, .seconds = 10, .seconds_left = 30, .doing = "peaks"};
+    EXPECT_EQ(line_text(state), "25 % after 0:10, 0:30 left, peaks");
+    EXPECT_NE(bar_text(state, 100).find("0:30 left  peaks"), std::string::npos);
+    EXPECT_EQ(json_text(state),
+              "{\"progress\": 0.25, \"seconds\": 10.000, \"seconds_left\": 30.000, \"doing\": \"peaks\"}");
+}

@@ -1,13 +1,13 @@
 #pragma once
-/// The three scenes of the ray benchmark, and the camera and light that its rays come from and go to.
+/// Three scenes to trace rays in, and the camera and light that rays come from and go to.
 #include <string>
 #include <vector>
 
 #include "scene/shapes.h"
 
-namespace triad::bench {
+namespace triad {
 
-struct BenchScene {
+struct RayScene {
     std::string name;
     Primitive mesh;
     vec3 eye, target;
@@ -17,6 +17,6 @@ struct BenchScene {
 };
 
 /// "cornell" (36 triangles), "room" (0.2 million, closed) or "landscape" (2 million, open sky).
-BenchScene make_scene(const std::string& name);
+RayScene make_ray_scene(const std::string& name);
 
-}  // namespace triad::bench
+}  // namespace triad

@@ -1,21 +1,22 @@
 #pragma once
-/// Triad's side of the ray benchmark: one tree on one device.
+/// Arrays of rays against the tree of one scene on one device.
 #include <vector>
 
-#include "bench_scenes.h"
+#include "bench/ray_scenes.h"
 #include "bvh/bvh.h"
 #include "device/device.h"
 
-namespace triad::bench {
+namespace triad {
 
-class TriadTracer {
+class TreeTracer {
   public:
-    TriadTracer(Device& device, const BenchScene& scene);
+    /// With nodes of the device's format.
+    TreeTracer(Device& device, const RayScene& scene);
 
     /// Uploads; what trace() is run on until the next call.
     void set_rays(const std::vector<dev::Ray>& rays);
-    /// Seconds of one pass over the rays, on the device, results left there.
-    double trace(bool occluded);
+    /// One pass over the rays, on the device, results left there; returns when it has ended.
+    void trace(bool occluded);
     std::vector<dev::Hit> hits() { return device_.download<dev::Hit>(results_); }
     std::vector<std::uint32_t> occluded();
 
@@ -31,4 +32,4 @@ class TriadTracer {
     double build_seconds_ = 0;
 };
 
-}  // namespace triad::bench
+}  // namespace triad

@@ -1,17 +1,17 @@
-#include "bench_scenes.h"
+#include "bench/ray_scenes.h"
 
 #include <cmath>
 
 #include "base/error.h"
 
-namespace triad::bench {
+namespace triad {
 namespace {
 
 /// The box with its front open, a light under the ceiling, two blocks: 36 triangles.
-BenchScene cornell() {
-    BenchScene scene{"cornell",    {},           {0.05f, 1.07f, 3.6f},
-                     {0, 1, 0},    0.4f,         {-0.25f, 1.98f, -0.2f},
-                     {0.5f, 0, 0}, {0, 0, 0.4f}, 4.0f};
+RayScene cornell() {
+    RayScene scene{"cornell",    {},           {0.05f, 1.07f, 3.6f},
+                   {0, 1, 0},    0.4f,         {-0.25f, 1.98f, -0.2f},
+                   {0.5f, 0, 0}, {0, 0, 0.4f}, 4.0f};
     Primitive& m = scene.mesh;
     shapes::append(m, shapes::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}));
     shapes::append(m, shapes::quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}));
@@ -31,9 +31,8 @@ BenchScene cornell() {
 }
 
 /// A closed room with twelve displaced spheres around a high-polygon body.
-BenchScene room() {
-    BenchScene scene{"room",          {},        {0, 2.2f, 4.6f}, {0, 1, 0}, 0.6f,
-                     {-1, 3.95f, -1}, {2, 0, 0}, {0, 0, 2},       6.0f};
+RayScene room() {
+    RayScene scene{"room", {}, {0, 2.2f, 4.6f}, {0, 1, 0}, 0.6f, {-1, 3.95f, -1}, {2, 0, 0}, {0, 0, 2}, 6.0f};
     Primitive& m = scene.mesh;
     shapes::append(m, shapes::box({-5, 0, -5}, {5, 4, 5}, true));
     shapes::append(m, shapes::displaced_sphere({0, 1.2f, 0}, 1.0f, 264, 133, 0.35f, 2.5f, 1));
@@ -47,9 +46,9 @@ BenchScene room() {
 }
 
 /// Terrain with 2000 boulders under an open sky.
-BenchScene landscape() {
-    BenchScene scene{"landscape",       {},          {0, 60, 420}, {0, 0, 0}, 0.5f,
-                     {-100, 400, -100}, {200, 0, 0}, {0, 0, 200},  600.0f};
+RayScene landscape() {
+    RayScene scene{"landscape",       {},          {0, 60, 420}, {0, 0, 0}, 0.5f,
+                   {-100, 400, -100}, {200, 0, 0}, {0, 0, 200},  600.0f};
     Primitive& m = scene.mesh;
     m = shapes::terrain(1000.0f, 60.0f, 700, 1);
     const auto height_at = [&, count = 701u](unsigned column, unsigned row) {
@@ -70,7 +69,7 @@ BenchScene landscape() {
 
 }  // namespace
 
-BenchScene make_scene(const std::string& name) {
+RayScene make_ray_scene(const std::string& name) {
     if (name == "cornell") return cornell();
     if (name == "room") return room();
     if (name == "landscape") return landscape();
@@ -78,4 +77,4 @@ BenchScene make_scene(const std::string& name) {
                 "There is no benchmark scene '" + name + "'; there are cornell, room and landscape.");
 }
 
-}  // namespace triad::bench
+}  // namespace triad

@@ -1,11 +1,12 @@
-#include "triad_tracer.h"
+#include "bench/tree_tracer.h"
 
-#include "clock.h"
+#include <chrono>
+
 #include "trace/node_format.h"
 
-namespace triad::bench {
+namespace triad {
 
-TriadTracer::TriadTracer(Device& device, const BenchScene& scene) : device_(device) {
+TreeTracer::TreeTracer(Device& device, const RayScene& scene) : device_(device) {
     std::vector<BvhTriangle> triangles;
     for (const uvec3& t : scene.mesh.triangles)
         triangles.push_back(
@@ -13,10 +14,10 @@ TriadTracer::TriadTracer(Device& device, const BenchScene& scene) : device_(devi
              std::uint32_t(triangles.size()),
              true});
     BvhPool pool;
-    const double start = now();
+    const auto start = std::chrono::steady_clock::now();
     pool.formats = {format_of(device)};
     root_ = build_bvh(triangles, {}, scene.reach, pool)[std::size_t(format_of(device))];
-    build_seconds_ = now() - start;
+    build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     nodes_ = nodes_on(device_, pool);
     blocks_ = device_.upload(pool.blocks);
     const Program program = device_.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}});
@@ -24,26 +25,23 @@ TriadTracer::TriadTracer(Device& device, const BenchScene& scene) : device_(devi
     occluded_ = program.kernel("intersect_occluded");
 }
 
-void TriadTracer::set_rays(const std::vector<dev::Ray>& rays) {
+void TreeTracer::set_rays(const std::vector<dev::Ray>& rays) {
     count_ = std::uint32_t(rays.size());
     rays_ = device_.upload(rays);
     results_ = device_.allocate(rays.size() * sizeof(dev::Hit));
 }
 
-double TriadTracer::trace(bool occluded) {
+void TreeTracer::trace(bool occluded) {
     const Arguments arguments =
         Arguments().add(nodes_).add(blocks_).add(Buffer{}).add(root_).add(rays_).add(results_).add(count_);
-    device_.finish();
-    const double start = now();
     device_.run(occluded ? occluded_ : closest_, arguments, count_);
     device_.finish();
-    return now() - start;
 }
 
-std::vector<std::uint32_t> TriadTracer::occluded() {
+std::vector<std::uint32_t> TreeTracer::occluded() {
     std::vector<std::uint32_t> values(count_);
     device_.read(results_, values.data(), values.size() * sizeof(std::uint32_t));
     return values;
 }
 
-}  // namespace triad::bench
+}  // namespace triad
