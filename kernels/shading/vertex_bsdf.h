@@ -61,7 +61,6 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, Vec3
     input.film_input.responses = scene->film_responses;
 #if TRIAD_HERO
     input.film_input.wavelengths = s->wavelengths;
-    if (wavelength > 0.0f) input.film_input.wavelengths = vec4_splat(wavelength);
 #endif
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION

@@ -30,6 +30,7 @@ std::string with_folders(const std::string& options) {
     };
     replace("$SCENES", [] { return TRIAD_SCENES; });
     replace("$ODDS", [] { return TRIAD_SOURCE_DIR "/tests/image/odds.gltf"; });
+    replace("$LOBES", [] { return TRIAD_SOURCE_DIR "/tests/image/lobes.gltf"; });
     replace("$ASSETS", test_assets);
     replace("$HARD", hard_scenes);
     return text;
