@@ -4,6 +4,7 @@
 #include <map>
 
 #include "scene/shapes.h"
+#include "scene/tangents.h"
 #include "scene/view.h"
 
 namespace triad {
@@ -123,6 +124,15 @@ void use_glass(FeatureScene& s) {
     ring.roughness = 0.1f;
 }
 
+/// Floor and walls, brushed: they alone have UVs, along which tangents run.
+void use_anisotropy(FeatureScene& s) {
+    for (const std::size_t m : {floor_material, wall_material})
+        s.scene.materials[m].anisotropy = Anisotropy{.strength = 0.8f, .rotation = 0.5f};
+    for (Mesh& mesh : s.scene.meshes)
+        for (Primitive& p : mesh.primitives)
+            if (s.scene.materials[p.material].anisotropy) generate_tangents(p, p.uvs[0]);
+}
+
 void add_point_lights(FeatureScene& s, int count) {
     for (int i = 0; i < count; ++i) {
         PunctualLight light;
@@ -163,6 +173,20 @@ const std::map<std::string, Recipe>& recipes() {
               s.scene.materials[lamp_material].emission = vec3(5.0f);
           }}},
         {"PRIORITIES", {[](FeatureScene& s) { s.scene.materials[ring_material].priority = 1; }, use_glass}},
+        {"CLEARCOAT", {[](FeatureScene& s) {
+             s.scene.materials[rock_material].clearcoat = Clearcoat{.factor = 1.0f, .roughness = 0.2f};
+         }}},
+        {"SHEEN", {[](FeatureScene& s) {
+             s.scene.materials[rock_material].sheen = Sheen{.colour = vec3(0.8f), .roughness = 0.5f};
+         }}},
+        {"ANISOTROPY", {use_anisotropy, use_specular}},
+        {"IRIDESCENCE",
+         {[](FeatureScene& s) { s.scene.materials[ring_material].iridescence = Iridescence{.factor = 1.0f}; },
+          use_specular}},
+        {"DIFFUSE_TRANSMISSION", {[](FeatureScene& s) {
+             s.scene.materials[ring_material].diffuse_transmission =
+                 DiffuseTransmission{.factor = 0.5f, .colour = vec3(0.8f, 0.6f, 0.4f)};
+         }}},
         {"UNLIT", {[](FeatureScene& s) { s.scene.materials[rock_material].unlit = true; }}},
         {"TRIANGLE_LIGHTS",
          {[](FeatureScene& s) { s.scene.materials[lamp_material].emission = vec3(5.0f); }}},

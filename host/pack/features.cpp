@@ -69,7 +69,7 @@ Features facts_of(const Scene& scene) {
         [](const Material& m) { return m.normal_texture || (m.clearcoat && m.clearcoat->normal_texture); });
     f.specular =
         any([](const Material& m) { return m.specular > 0 || m.metallic > 0 || m.transmission > 0; });
-    f.transmission = any([](const Material& m) { return m.transmission > 0; });
+    f.transmission = any([](const Material& m) { return m.transmission > 0 || is_solid(m); });
     f.dispersion = any([](const Material& m) { return m.dispersion.has_value(); });
     f.priorities = any([](const Material& m) { return m.priority != 0; });
     f.clearcoat = any([](const Material& m) { return m.clearcoat.has_value(); });

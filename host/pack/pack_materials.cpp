@@ -138,8 +138,7 @@ void pack_materials(const Scene& scene, PackedSurfaces& surfaces) {
         d.flags = (m.double_sided ? MATERIAL_DOUBLE_SIDED : 0u) |
                   (m.alpha_mode == AlphaMode::mask ? MATERIAL_ALPHA_MASK : 0u) |
                   (m.alpha_mode == AlphaMode::blend ? MATERIAL_ALPHA_BLEND : 0u) |
-                  (m.thickness > 0.0f && m.transmission > 0.0f ? MATERIAL_SOLID : 0u) |
-                  (m.unlit ? MATERIAL_UNLIT : 0u);
+                  (is_solid(m) ? MATERIAL_SOLID : 0u) | (m.unlit ? MATERIAL_UNLIT : 0u);
         d.base_colour_use = textures.use(m.base_colour_texture, true);
         d.metallic_roughness_use = textures.use(m.metallic_roughness_texture, false);
         d.normal_use = textures.use(m.normal_texture, false);

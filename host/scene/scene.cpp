@@ -112,6 +112,10 @@ Bounds bounds_of(const Scene& scene) {
     return bounds;
 }
 
+bool is_solid(const Material& m) {
+    return m.thickness > 0.0f && (m.transmission > 0.0f || m.diffuse_transmission);
+}
+
 std::vector<const TextureUse*> texture_uses_of(const Material& m) {
     std::vector<const TextureUse*> uses;
     const auto add = [&uses](const auto&... all) { (uses.push_back(all ? &*all : nullptr), ...); };

@@ -45,10 +45,6 @@ inline constexpr unsigned most_priority = 255;
 
 enum class AlphaMode { opaque, mask, blend };
 
-/// glTF metallic-roughness and the KHR extensions of docs/conventions.md. Colour textures are decoded from
-/// sRGB (base_colour, emission, specular_colour); the others are linear data.
-/// Each extension of a material is there only where it does something.
-
 /// KHR_materials_clearcoat: a varnish of index 1.5 over everything else.
 struct Clearcoat {
     float factor = 0.0f, roughness = 0.0f;  ///< in [0, 1], factor above 0
@@ -90,6 +86,8 @@ struct DiffuseTransmission {
     std::optional<TextureUse> colour_texture;  ///< sRGB
 };
 
+/// glTF metallic-roughness and the KHR extensions of docs/conventions.md. Colour textures are decoded from
+/// sRGB (base_colour, emission, specular_colour and those marked so); the others are linear data.
 struct Material {
     std::string name;
     vec4 base_colour{1.0f};
@@ -118,12 +116,17 @@ struct Material {
     std::optional<TextureUse> specular_colour_texture;  ///< sRGB
     std::optional<TextureUse> transmission_texture;     ///< R
     std::optional<LightSpectrum> emission_spectrum;     ///< of which `emission` is the tint; none: D65
+    // Each of these is there only where it does something.
     std::optional<Clearcoat> clearcoat;
     std::optional<Sheen> sheen;
     std::optional<Anisotropy> anisotropy;
     std::optional<Iridescence> iridescence;
     std::optional<DiffuseTransmission> diffuse_transmission;
 };
+
+/// Whether it is the boundary of a closed body with an inside that absorbs: a volume with a thickness that
+/// light gets into, refracted or diffusely.
+bool is_solid(const Material& material);
 
 /// Every texture that the material uses.
 std::vector<const TextureUse*> texture_uses_of(const Material& material);

@@ -86,6 +86,36 @@ void check_images(const Scene& scene) {
     require_brightness(scene.sky, "The sky");
 }
 
+bool is_factor(float x) { return x > 0.0f && x <= 1.0f; }
+bool in_unit(const vec3& v) { return in_unit(v.x) && in_unit(v.y) && in_unit(v.z); }
+
+/// The extensions that are there: each must do something.
+void check_extensions(const Material& m, const std::string& what) {
+    if (const auto& c = m.clearcoat) {
+        require(is_factor(c->factor) && in_unit(c->roughness), what,
+                "has a clearcoat of 0, or a factor or roughness of it outside 0 to 1");
+        require(std::abs(c->normal_scale) <= limits::squared, what,
+                ("has a normal scale of its clearcoat that is no number, or" + too_large).c_str());
+    }
+    if (const auto& s = m.sheen)
+        require(in_unit(s->colour) && s->colour != vec3(0.0f) && in_unit(s->roughness), what,
+                "has a black sheen, or a colour or roughness of it outside 0 to 1");
+    if (const auto& a = m.anisotropy)
+        require(is_factor(a->strength) && std::isfinite(a->rotation), what,
+                "has an anisotropy of 0 or outside 0 to 1, or a rotation of it that is no number");
+    if (const auto& i = m.iridescence) {
+        require(is_factor(i->factor), what, "has an iridescence of 0 or outside 0 to 1");
+        require(i->ior >= 1.0f && i->ior <= limits::squared, what,
+                ("has an index of refraction of its iridescent film below 1, or" + too_large).c_str());
+        require(i->thickness_minimum >= 0.0f && i->thickness_maximum >= 0.0f &&
+                    std::max(i->thickness_minimum, i->thickness_maximum) <= limits::squared,
+                what, ("has a thickness of its iridescent film that is negative, or" + too_large).c_str());
+    }
+    if (const auto& d = m.diffuse_transmission)
+        require(is_factor(d->factor) && in_unit(d->colour), what,
+                "has a diffuse transmission of 0, or a factor or colour of it outside 0 to 1");
+}
+
 void check_material(const Scene& scene, const Material& m, const std::string& what) {
     for (int k = 0; k < 4; ++k) require(in_unit(m.base_colour[k]), what, "has a base colour outside 0 to 1");
     require(in_unit(m.metallic) && in_unit(m.roughness), what,
@@ -112,6 +142,7 @@ void check_material(const Scene& scene, const Material& m, const std::string& wh
     require(m.attenuation_distance >= 1.0 / limits::squared, what,
             ("has an attenuation distance that is no number, or below " + text_of(1.0 / limits::squared))
                 .c_str());
+    check_extensions(m, what);
     for (const TextureUse* use : texture_uses_of(m)) {
         require(use->texture < scene.textures.size(), what, "uses a texture that does not exist");
         require(use->uv_set < 2, what, "uses a UV set beyond 1");

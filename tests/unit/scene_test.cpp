@@ -16,7 +16,13 @@ Scene small_scene() {
     scene.images.push_back({"white", 1, 1, 8, {255, 255, 255, 255}});
     scene.textures.push_back({});
     scene.materials.push_back({});
-    scene.materials[0].base_colour_texture = TextureUse{};
+    Material& m = scene.materials[0];
+    m.base_colour_texture = TextureUse{};
+    m.clearcoat = Clearcoat{.factor = 1, .texture = TextureUse{}};
+    m.sheen = Sheen{.colour = vec3(1)};
+    m.anisotropy = Anisotropy{.strength = 1};
+    m.iridescence = Iridescence{.factor = 1};
+    m.diffuse_transmission = DiffuseTransmission{.factor = 1};
     Primitive p;
     p.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     p.triangles = {{0, 1, 2}};
@@ -40,6 +46,21 @@ const std::vector<std::function<void(Scene&)>> faults{
         s.materials[0].dispersion = Dispersion{Dispersion::Law::cauchy, 0, {0.9, 0.01}, {}};
     },
     [](Scene& s) { s.materials[0].priority = 256; },
+    [](Scene& s) { s.materials[0].clearcoat->factor = 0; },
+    [](Scene& s) { s.materials[0].clearcoat->roughness = 2; },
+    [](Scene& s) { s.materials[0].clearcoat->normal_scale = NAN; },
+    [](Scene& s) { s.materials[0].clearcoat->texture->texture = 9; },
+    [](Scene& s) { s.materials[0].sheen->colour = vec3(0); },
+    [](Scene& s) { s.materials[0].sheen->colour.x = 2; },
+    [](Scene& s) { s.materials[0].sheen->roughness = -1; },
+    [](Scene& s) { s.materials[0].anisotropy->strength = 2; },
+    [](Scene& s) { s.materials[0].anisotropy->rotation = INFINITY; },
+    [](Scene& s) { s.materials[0].iridescence->factor = NAN; },
+    [](Scene& s) { s.materials[0].iridescence->ior = 0.5f; },
+    [](Scene& s) { s.materials[0].iridescence->thickness_minimum = -1; },
+    [](Scene& s) { s.materials[0].iridescence->thickness_maximum = NAN; },
+    [](Scene& s) { s.materials[0].diffuse_transmission->factor = -1; },
+    [](Scene& s) { s.materials[0].diffuse_transmission->colour.z = NAN; },
     [](Scene& s) { s.materials[0].base_colour_texture->texture = 9; },
     [](Scene& s) { s.materials[0].base_colour_texture->uv_set = 2; },
     [](Scene& s) { s.meshes[0].primitives[0].material = 1; },
@@ -90,6 +111,9 @@ const std::vector<Beyond> beyond{
     {[](Scene& s) { s.materials[0].emission.x = 1e38f; }, "Material 0"},
     {[](Scene& s) { s.materials[0].normal_scale = 1e20f; }, "Material 0"},
     {[](Scene& s) { s.materials[0].attenuation_distance = 1e-30f; }, "Material 0"},
+    {[](Scene& s) { s.materials[0].clearcoat->normal_scale = 1e20f; }, "Material 0"},
+    {[](Scene& s) { s.materials[0].iridescence->ior = 1e20f; }, "Material 0"},
+    {[](Scene& s) { s.materials[0].iridescence->thickness_maximum = 1e20f; }, "Material 0"},
     {[](Scene& s) {
          s.environment = EnvironmentMap{1, 1, {1, 1e38f, 1}};
      },
