@@ -182,7 +182,7 @@ void add_bsdf_layers(std::vector<CheckCase>& cases) {
     cases.insert(
         cases.end(),
         {
-            {"F11", "furnace of varnish", standard, furnace_of_varnish},
+            {"F17", "furnace of varnish", standard, furnace_of_varnish},
             {"F12", "furnace of sheen", standard, furnace_of_sheen},
             {"F13", "furnace of stretched metal", standard, furnace_of_stretched_metal},
             {"F14", "furnace of diffuse transmission", standard, furnace_of_diffuse_transmission},
