@@ -170,8 +170,9 @@ TRIAD_SIZE(TextureUse, 32);
 #define MATERIAL_DOUBLE_SIDED 1u /* emits on both sides */
 #define MATERIAL_ALPHA_MASK 2u
 #define MATERIAL_ALPHA_BLEND 4u
-#define MATERIAL_SOLID \
-    8u /* KHR_materials_volume with thickness > 0: a closed body that refracts and absorbs */
+#define MATERIAL_SOLID                                                                               \
+    8u /* KHR_materials_volume with thickness > 0: a closed body that absorbs, and refracts where it \
+          transmits */
 #define MATERIAL_UNLIT 16u
 
 /* Below this roughness squared a surface is a mirror: float directions cannot resolve it. */

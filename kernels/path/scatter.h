@@ -24,7 +24,7 @@ TRIAD_FUNCTION int scatter_sample(const Vertex* vertex, const VertexBsdf* v, con
 
 /* Into the bodies beyond the surface, or back into those here. */
 TRIAD_FUNCTION void scatter_bodies(PathState* path, const Vertex* vertex, uint event) {
-#if BSDF_TRANSMISSION
+#if TRIAD_TRANSMISSION
     if (event & BSDF_TRANSMIT) path->bodies = vertex->around.beyond;
 #else
     (void)path, (void)vertex, (void)event;
