@@ -75,7 +75,7 @@ TEST(BenchDeviceCommand, refuses_what_it_cannot_do) {
     EXPECT_NE(outcome.output.find("is no report of triad bench device"), std::string::npos) << outcome.output;
     EXPECT_EQ(run_triad("bench device --against " + (folder / "none.json").string()).exit, 2);
     for (const std::string& more : {std::string(" --quick"), std::string(" --device 0"),
-                                   std::string(" --time 5"), " --json " + bad.string()})
+                                    std::string(" --time 5"), " --json " + bad.string()})
         EXPECT_EQ(run_triad(against + more).exit, 1) << more;
     for (const std::string option : {"--time 0", "--device no-such-device", "--progress loud"})
         EXPECT_EQ(run_triad("bench device " + option).exit, 1) << option;
