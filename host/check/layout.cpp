@@ -32,9 +32,9 @@ std::uint32_t product_of_extents(const std::string& extents,
     return product;
 }
 
-/// types.h without its comments.
+/// types.h and its parts, without comments.
 std::string types_h() {
-    return std::regex_replace(kernel_source::text("types.h"), std::regex(R"(/\*[^]*?\*/)"), "");
+    return std::regex_replace(kernel_source::load("types.h"), std::regex(R"(/\*[^]*?\*/)"), "");
 }
 
 std::vector<Struct> structs_of_types_h() {

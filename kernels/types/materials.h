@@ -1,0 +1,160 @@
+/* Textures, materials, and the tables that shading looks up. Part of types.h. */
+#ifndef TRIAD_TYPES_MATERIALS_H
+#define TRIAD_TYPES_MATERIALS_H
+
+#include "types/border.h"
+
+TRIAD_TYPES_BEGIN
+
+/* ---- Textures and materials ---- */
+
+#define TEXTURE_RGBA8 0u      /* one uint per texel, R in the low byte */
+#define TEXTURE_RGBA8_SRGB 1u /* the same, RGB decoded with the sRGB curve */
+#define TEXTURE_RGBA16 2u     /* two uints per texel, unsigned normalised */
+
+#define WRAP_REPEAT 0u
+#define WRAP_MIRROR 1u
+#define WRAP_CLAMP 2u
+
+/* One image with one sampler. Row 0 is the top row, (u, v) = (0, 0) its upper left corner, as in glTF. */
+typedef struct Texture {
+    uint width, height;
+    uint first_texel; /* index into the texel array, in uints */
+    uint format;
+    uint wrap_u, wrap_v;
+    uint linear; /* 1 bilinear, 0 nearest */
+    uint unused;
+} Texture;
+TRIAD_SIZE(Texture, 32);
+
+/* A use of a texture: which UV set, and KHR_texture_transform as u' = m[0] u + m[1] v + m[2], v' = m[3] u +
+ * ... */
+typedef struct TextureUse {
+    uint texture;
+    uint uv_set;
+    float m[6];
+} TextureUse;
+TRIAD_SIZE(TextureUse, 32);
+
+#define MATERIAL_DOUBLE_SIDED 1u /* emits on both sides */
+#define MATERIAL_ALPHA_MASK 2u
+#define MATERIAL_ALPHA_BLEND 4u
+#define MATERIAL_SOLID                                                                               \
+    8u /* KHR_materials_volume with thickness > 0: a closed body that absorbs, and refracts where it \
+          transmits */
+#define MATERIAL_UNLIT 16u
+
+/* Below this roughness squared a surface is a mirror: float directions cannot resolve it. */
+#define BSDF_SMOOTH_ALPHA 1e-3f
+/* A body whose index differs from 1 by less is taken as smooth: its roughness would blur what is behind by
+ * less than alpha / 100, and half vectors lose their meaning. */
+#define BSDF_SAME_INDEX 1e-2f
+
+/* glTF metallic-roughness with KHR ior, specular, transmission, volume, emissive_strength, unlit.
+ * The *_use members index the TextureUse array or are TRIAD_NONE. Factors multiply textures, as the
+ * extensions say. */
+typedef struct Material {
+    float base_colour[4];
+    float emission[3]; /* radiance, strength included */
+    float alpha_cutoff;
+    float metallic;
+    float roughness;
+    float ior; /* 0: Fresnel is 1 everywhere (KHR_materials_ior) */
+    float normal_scale;
+    float specular_colour[3];
+    float specular;
+    float absorption[3]; /* sigma_a of the body, per scene unit of the instance's world scale */
+    float transmission;
+    uint flags;
+    uint base_colour_use;
+    uint metallic_roughness_use;
+    uint normal_use;
+    uint emission_use;
+    uint specular_use;
+    uint specular_colour_use;
+    uint transmission_use;
+    uint dispersion; /* of a solid body: its table of indices, or TRIAD_NONE */
+    uint priority;   /* of a solid body among others that overlap it */
+    uint extensions; /* index of its MaterialExtensions, or TRIAD_NONE */
+    uint unused;
+} Material;
+TRIAD_SIZE(Material, 128);
+
+/* What some materials have besides: a block for each extension, which is read only where its option of
+ * features.h is on. A block with a factor (strength, colour) of 0 does nothing. *_use as in Material. */
+
+/* KHR_materials_clearcoat: a varnish of index 1.5 over everything else. */
+typedef struct ClearcoatBlock {
+    float factor, roughness, normal_scale;
+    uint factor_use, roughness_use, normal_use; /* R; G */
+} ClearcoatBlock;
+TRIAD_SIZE(ClearcoatBlock, 24);
+
+/* KHR_materials_sheen. */
+typedef struct SheenBlock {
+    float colour[3], roughness;
+    uint colour_use, roughness_use; /* sRGB; A */
+} SheenBlock;
+TRIAD_SIZE(SheenBlock, 24);
+
+/* KHR_materials_anisotropy: direction is (cos, sin) of the rotation, from the tangent towards the bitangent.
+ */
+typedef struct AnisotropyBlock {
+    float strength, direction[2];
+    uint use; /* RG: direction as [-1, 1]; B: strength */
+} AnisotropyBlock;
+TRIAD_SIZE(AnisotropyBlock, 16);
+
+/* KHR_materials_iridescence: a thin film over the base, thicknesses in nm. */
+typedef struct IridescenceBlock {
+    float factor, ior, thickness_minimum, thickness_maximum;
+    uint factor_use, thickness_use; /* R; G: from minimum to maximum (none: the maximum) */
+} IridescenceBlock;
+TRIAD_SIZE(IridescenceBlock, 24);
+
+/* KHR_materials_diffuse_transmission: share of the Lambert base that leaves on the other side. */
+typedef struct DiffuseTransmissionBlock {
+    float factor, colour[3];
+    uint factor_use, colour_use; /* A; sRGB */
+} DiffuseTransmissionBlock;
+TRIAD_SIZE(DiffuseTransmissionBlock, 24);
+
+typedef struct MaterialExtensions {
+    ClearcoatBlock clearcoat;
+    SheenBlock sheen;
+    AnisotropyBlock anisotropy;
+    IridescenceBlock iridescence;
+    DiffuseTransmissionBlock diffuse_transmission;
+    uint unused[4];
+} MaterialExtensions;
+TRIAD_SIZE(MaterialExtensions, 128);
+
+/* Directional-albedo tables, one float array (host/pack/albedo_tables.h, kernels/shading/albedo.h).
+ * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over
+ * [0, 1]. Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index
+ * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. Then
+ * stretched GGX reflection: [roughness][strength][azimuth of wo over [0, pi/2]][sqrt(mu)][2] as the first.
+ * Then the white sheen lobe: [roughness from SHEEN_MIN_ROUGHNESS to 1][sqrt(mu)]. */
+#define ALBEDO_SIZE 32
+#define ALBEDO_GLASS_SIZE 16
+#define ALBEDO_GLASS_MAX 0.6f
+#define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
+#define ALBEDO_ANISOTROPIC_FIRST \
+    (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+#define ALBEDO_LONG 16
+#define ALBEDO_SHORT 8
+#define ALBEDO_SHEEN_FIRST \
+    (ALBEDO_ANISOTROPIC_FIRST + ALBEDO_LONG * ALBEDO_SHORT * ALBEDO_SHORT * ALBEDO_LONG * 2)
+#define ALBEDO_FLOATS (ALBEDO_SHEEN_FIRST + ALBEDO_SIZE * ALBEDO_SIZE)
+/* Below it fibres would be flat. */
+#define SHEEN_MIN_ROUGHNESS 0.07f
+
+/* Thin films (kernels/shading/thin_film.h): how many reflections within the film are told apart, and the
+ * table of mean cosines: rows of FILM_STEP nm of optical path difference, three channels each. */
+#define FILM_ORDERS 10
+#define FILM_ROWS 2049
+#define FILM_STEP 5.0f
+
+TRIAD_TYPES_END
+
+#endif
