@@ -96,16 +96,7 @@ void lambert_to_the_bit(Check& check) {
 }
 
 void same_bits_without_transmission(Check& check) {
-    std::vector<Case> cases;
-    const int count = int(check.count(4096, 512));
-    for (int i = 0; i < count; ++i)
-        cases.push_back({.base = {0.8f, 0.25f, float(i) / float(count)},
-                         .metallic = (i % 3) / 2.0f,
-                         .roughness = (i % 12) / 11.0f,
-                         .mu = 0.01f + (i % 90) * 0.011f,
-                         .u_lobe = (i % 64) / 64.0f,
-                         .u = (i % 61) / 61.0f,
-                         .v = (i % 59) / 59.0f});
+    const std::vector<Case> cases = many_cases(check);
     const auto general = once(check, cases), opaque = once(check, cases, {{"TRIAD_TRANSMISSION", "0"}});
     check.equal(std::memcmp(general.data(), opaque.data(), general.size() * sizeof(Four)), 0,
                 "the specialised program");

@@ -169,6 +169,21 @@ __kernel void reverse(__global Vec2* out, __global const Case* cases, __global c
 
 using Four = std::array<float, 4>;
 
+/// Some thousand plain materials, directions and random numbers, for comparing programs to the bit.
+inline std::vector<Case> many_cases(const Check& check) {
+    std::vector<Case> cases;
+    const int count = int(check.count(4096, 512));
+    for (int i = 0; i < count; ++i)
+        cases.push_back({.base = {0.8f, 0.25f, float(i) / float(count)},
+                         .metallic = (i % 3) / 2.0f,
+                         .roughness = (i % 12) / 11.0f,
+                         .mu = 0.01f + (i % 90) * 0.011f,
+                         .u_lobe = (i % 64) / 64.0f,
+                         .u = (i % 61) / 61.0f,
+                         .v = (i % 59) / 59.0f});
+    return cases;
+}
+
 struct Furnace {
     float r, g, b, transmitted, difference, nans, largest, wrong;
 };

@@ -62,6 +62,39 @@ TRIAD_FUNCTION float base_lambert(BaseBsdf* b, const BsdfInput* in, float share)
     return albedo;
 }
 
+#if BSDF_TRANSMISSION
+/* The transmitter's share of the core: a dielectric of reflectance coat0 at normal incidence, whose
+ * `reflected` is the albedo of GGX with Fresnel factor 1. Returns an estimate of its albedo. */
+TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float transmitter,
+                                          Colour coat0, float reflected, global const float* albedo_tables) {
+    const float f0 = fresnel_normal(in->ior), root_mu = sqrt(wo.z);
+    const Colour coat_rise = colour_sub(colour_splat(in->specular), coat0);
+    b->fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
+    b->fresnel0 = colour_fma_scale(-f0, b->fresnel1, coat0);
+    b->tint = in->base_colour;
+    b->eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
+    b->body_scale = in->solid ? 1.0f / (b->eta * b->eta) : 1.0f;
+    b->transmitter = colour_splat(transmitter);
+    if (!b->smooth) {
+        Colour kept = colour_splat(reflected);
+        if (in->solid) {
+            Vec2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
+            Colour lost = colour_sub(colour_complement(b->fresnel0), b->fresnel1);
+            kept = colour_add(
+                colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
+                colour_scale(lost, glass.y));
+        }
+        b->transmitter = colour_div(colour_splat(transmitter), kept);
+        /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
+         * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
+        if (in->solid && in->inside) b->p_cap = math_saturate(1.0f - colour_average(kept));
+    }
+    Colour f = base_transmitter_fresnel(b, wo.z);
+    Colour seen = colour_add(f, colour_mul(colour_complement(f), b->tint));
+    return transmitter * math_max(colour_average(seen), BSDF_MIN_TRANSMITTER);
+}
+#endif
+
 /* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission in [0, 1], ior 0 or at least 1. */
 TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
     BaseBsdf b;
@@ -144,31 +177,8 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
 #if BSDF_TRANSMISSION
     b.p_cap = 0.0f;
     if (b.transmits) {
-        bounded = 0u;
-        b.fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
-        b.fresnel0 = colour_fma_scale(-f0, b.fresnel1, coat0);
-        b.tint = in->base_colour;
-        b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
-        b.body_scale = in->solid ? 1.0f / (b.eta * b.eta) : 1.0f;
-        b.transmitter = colour_splat(transmitter);
-        if (!b.smooth) {
-            Colour kept = colour_splat(albedo.x);
-            if (in->solid) {
-                Vec2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
-                Colour lost = colour_sub(colour_complement(b.fresnel0), b.fresnel1);
-                kept = colour_add(
-                    colour_add(colour_scale(b.fresnel0, albedo.x), colour_scale(b.fresnel1, glass.x)),
-                    colour_scale(lost, glass.y));
-            }
-            b.transmitter = colour_div(colour_splat(transmitter), kept);
-            /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
-             * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
-            if (in->solid && in->inside) b.p_cap = math_saturate(1.0f - colour_average(kept));
-            bounded = b.p_cap > 0.0f;
-        }
-        Colour f = base_transmitter_fresnel(&b, wo.z);
-        Colour seen = colour_add(f, colour_mul(colour_complement(f), b.tint));
-        p += transmitter * math_max(colour_average(seen), BSDF_MIN_TRANSMITTER);
+        p += base_add_transmitter(&b, in, wo, transmitter, coat0, albedo.x, albedo_tables);
+        bounded = b.p_cap > 0.0f;
     }
 #endif
     b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;

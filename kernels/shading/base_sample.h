@@ -188,12 +188,7 @@ TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_lobe, 
             return s;
         }
     }
-    Colour f = base_eval(b, wo, s.wi, &s.pdf);
-    if (!(s.pdf > 0.0f)) {
-        s.event = BSDF_NONE;
-        return s;
-    }
-    s.weight = colour_div(f, colour_splat(s.pdf));
+    bsdf_weigh(&s, base_eval(b, wo, s.wi, &s.pdf));
     return s;
 }
 

@@ -165,12 +165,7 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2
             return s;
         }
     }
-    Colour f = bsdf_eval(b, wo, s.wi, &s.pdf);
-    if (!(s.pdf > 0.0f)) {
-        s.event = BSDF_NONE;
-        return s;
-    }
-    s.weight = colour_div(f, colour_splat(s.pdf));
+    bsdf_weigh(&s, bsdf_eval(b, wo, s.wi, &s.pdf));
     return s;
 #endif
 }

@@ -89,4 +89,12 @@ typedef struct BsdfSample {
     uint event;    /* BSDF_* bits; BSDF_NONE: absorbed */
 } BsdfSample;
 
+/* Of a drawn wi with its pdf, where f is f |cos|. */
+TRIAD_FUNCTION void bsdf_weigh(BsdfSample* s, Colour f) {
+    if (s->pdf > 0.0f)
+        s->weight = colour_div(f, colour_splat(s->pdf));
+    else
+        s->event = BSDF_NONE;
+}
+
 #endif

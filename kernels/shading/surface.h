@@ -47,6 +47,31 @@ TRIAD_FUNCTION Vec3 surface_start(Vec3 p0, Vec3 e1, Vec3 e2, float u, float v, V
     return vec3_add_scaled(vec3_add_scaled(p0, e1, b * inverse), e2, c * inverse);
 }
 
+/* What the material's core is at the point; colour: of the vertices. */
+TRIAD_FUNCTION void surface_core(const Scene* scene, global const Material* m, Vec4 colour, Surface* s) {
+    (void)scene;
+    s->base_colour = vec3_mul(VEC3_OF(m->base_colour), vec4_xyz(colour));
+    s->metallic = m->metallic;
+    s->roughness = m->roughness;
+    s->transmission = m->transmission;
+    s->specular = m->specular;
+    s->specular_colour = VEC3_OF(m->specular_colour);
+#if TRIAD_TEXTURES
+    const Vec4 one = vec4_splat(1.0f);
+    const Vec4 base = texture_use_sample(scene, m->base_colour_use, s->uv0, s->uv1, one);
+    s->base_colour = vec3_mul(s->base_colour, vec4_xyz(base));
+    if (m->metallic_roughness_use != TRIAD_NONE) {
+        const Vec4 mr = texture_use_sample(scene, m->metallic_roughness_use, s->uv0, s->uv1, one);
+        s->roughness *= mr.y;
+        s->metallic *= mr.z;
+    }
+    s->transmission *= texture_use_sample(scene, m->transmission_use, s->uv0, s->uv1, one).x;
+    s->specular *= texture_use_sample(scene, m->specular_use, s->uv0, s->uv1, one).w;
+    const Vec4 specular = texture_use_sample(scene, m->specular_colour_use, s->uv0, s->uv1, one);
+    s->specular_colour = vec3_mul(s->specular_colour, vec4_xyz(specular));
+#endif
+}
+
 TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     const float u = hit->u, v = hit->v;
     const uint instance = hit->instance;
@@ -117,26 +142,7 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     }
 #endif
     s.shading_normal = vec3_dot(ns, n) < 0.0f ? vec3_negate(ns) : ns;
-    s.base_colour = vec3_mul(VEC3_OF(m->base_colour), vec4_xyz(colour));
-    s.metallic = m->metallic;
-    s.roughness = m->roughness;
-    s.transmission = m->transmission;
-    s.specular = m->specular;
-    s.specular_colour = VEC3_OF(m->specular_colour);
-#if TRIAD_TEXTURES
-    const Vec4 one = vec4_splat(1.0f);
-    const Vec4 base = texture_use_sample(scene, m->base_colour_use, s.uv0, s.uv1, one);
-    s.base_colour = vec3_mul(s.base_colour, vec4_xyz(base));
-    if (m->metallic_roughness_use != TRIAD_NONE) {
-        const Vec4 mr = texture_use_sample(scene, m->metallic_roughness_use, s.uv0, s.uv1, one);
-        s.roughness *= mr.y;
-        s.metallic *= mr.z;
-    }
-    s.transmission *= texture_use_sample(scene, m->transmission_use, s.uv0, s.uv1, one).x;
-    s.specular *= texture_use_sample(scene, m->specular_use, s.uv0, s.uv1, one).w;
-    const Vec4 specular = texture_use_sample(scene, m->specular_colour_use, s.uv0, s.uv1, one);
-    s.specular_colour = vec3_mul(s.specular_colour, vec4_xyz(specular));
-#endif
+    surface_core(scene, m, colour, &s);
 #if SURFACE_EXTENSIONS
     surface_extend(scene, m, &g, &t, u, v, instance, smooth_normal, &s);
 #else

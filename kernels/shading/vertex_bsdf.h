@@ -12,6 +12,54 @@ typedef struct VertexBsdf {
     Bsdf bsdf;
 } VertexBsdf;
 
+/* What extensions change of the core. */
+TRIAD_FUNCTION void vertex_core_extensions(const Scene* scene, const Surface* s, BsdfInput* input) {
+    (void)scene, (void)s, (void)input;
+#if BSDF_STRETCHED
+    input->anisotropy = s->anisotropy;
+#endif
+#if BSDF_FILM
+    input->film = s->film;
+    input->film_input->ior = s->film_ior;
+    input->film_input->thickness = s->film_thickness;
+    input->film_input->responses = scene->film_responses;
+#if TRIAD_HERO
+    input->film_input->wavelengths = s->wavelengths;
+#endif
+#endif
+#if TRIAD_DIFFUSE_TRANSMISSION
+    input->through = s->through;
+#if TRIAD_HERO
+    input->through_colour = s->through_values;
+#else
+    input->through_colour = s->through_colour;
+#endif
+#endif
+}
+
+/* Varnish and fibres; they are on the outside of a body, and `inner` is its other side. */
+TRIAD_FUNCTION void vertex_layers(const Surface* s, const ShadingFrame* frame, Vec3 wo, Vec3 ng, int back,
+                                  int inner, BsdfInput* input) {
+    (void)s, (void)frame, (void)wo, (void)ng, (void)back, (void)inner, (void)input;
+#if TRIAD_CLEARCOAT
+    input->coat = inner ? 0.0f : s->coat;
+    if (input->coat > 0.0f) {
+        input->coat_roughness = s->coat_roughness;
+        input->coat_normal = frame_to_local(
+            frame, vertex_shading_normal(back ? vec3_negate(s->coat_normal) : s->coat_normal, ng, wo, 1.0f));
+    }
+#endif
+#if TRIAD_SHEEN
+#if TRIAD_HERO
+    input->sheen = s->sheen_values;
+#else
+    input->sheen = s->sheen;
+#endif
+    input->sheen_roughness = s->sheen_roughness;
+    if (inner) input->sheen = colour_splat(0.0f);
+#endif
+}
+
 /* ng: the geometric normal on wo's side. back: that is the inner side of the surface. bodies and beyond: what
  * the path is in on wo's side and on the other. wavelength: in nm, or 0 for all of them together. */
 TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, Vec3 wo, Vec3 ng, int back,
@@ -51,26 +99,7 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, Vec3
         input.transmission = 1.0f;
     }
 #endif
-#if BSDF_STRETCHED
-    input.anisotropy = s->anisotropy;
-#endif
-#if BSDF_FILM
-    input.film = s->film;
-    input.film_input.ior = s->film_ior;
-    input.film_input.thickness = s->film_thickness;
-    input.film_input.responses = scene->film_responses;
-#if TRIAD_HERO
-    input.film_input.wavelengths = s->wavelengths;
-#endif
-#endif
-#if TRIAD_DIFFUSE_TRANSMISSION
-    input.through = s->through;
-#if TRIAD_HERO
-    input.through_colour = s->through_values;
-#else
-    input.through_colour = s->through_colour;
-#endif
-#endif
+    vertex_core_extensions(scene, s, &input);
     const float mirror = fma(1.0f - s->metallic, s->transmission, s->metallic);
     VertexBsdf v;
     const Vec3 normal =
@@ -80,25 +109,7 @@ TRIAD_FUNCTION VertexBsdf vertex_bsdf(const Scene* scene, const Surface* s, Vec3
     if (s->anisotropy > 0.0f) v.frame = frame_make_along(normal, s->grain);
 #endif
     v.wo = frame_to_local(&v.frame, wo);
-    /* varnish and fibres are on the outside of a body */
-#if TRIAD_CLEARCOAT
-    input.coat = back && solid ? 0.0f : s->coat;
-    if (input.coat > 0.0f) {
-        input.coat_roughness = s->coat_roughness;
-        input.coat_normal = frame_to_local(
-            &v.frame,
-            vertex_shading_normal(back ? vec3_negate(s->coat_normal) : s->coat_normal, ng, wo, 1.0f));
-    }
-#endif
-#if TRIAD_SHEEN
-#if TRIAD_HERO
-    input.sheen = s->sheen_values;
-#else
-    input.sheen = s->sheen;
-#endif
-    input.sheen_roughness = s->sheen_roughness;
-    if (back && solid) input.sheen = colour_splat(0.0f);
-#endif
+    vertex_layers(s, &v.frame, wo, ng, back, back && solid, &input);
     v.bsdf = bsdf_make(&input, v.wo, scene->albedo);
     return v;
 }
