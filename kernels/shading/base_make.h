@@ -44,20 +44,24 @@ TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Vec3 wo, fl
 }
 #endif
 
-/* The Lambert base, of which `share` is seen; returns its albedo. */
-TRIAD_FUNCTION float base_lambert(BaseBsdf* b, const BsdfInput* in, float share) {
+/* The Lambert base, of which `share` is seen. */
+TRIAD_FUNCTION void base_lambert(BaseBsdf* b, const BsdfInput* in, float share) {
     b->diffuse = colour_scale(in->base_colour, share);
-    float albedo = colour_average(b->diffuse);
 #if TRIAD_DIFFUSE_TRANSMISSION
     b->diffuse_through = colour_splat(0.0f);
     b->p_through = 0.0f;
     if (in->through > 0.0f) {
         b->diffuse = colour_scale(b->diffuse, 1.0f - in->through);
         b->diffuse_through = colour_scale(in->through_colour, share * in->through);
-        float through = colour_average(b->diffuse_through);
-        albedo = colour_average(b->diffuse) + through;
+        float through = colour_average(b->diffuse_through), albedo = colour_average(b->diffuse) + through;
         b->p_through = albedo > 0.0f ? through / albedo : 0.0f;
     }
+#endif
+}
+TRIAD_FUNCTION float base_lambert_albedo(const BaseBsdf* b) {
+    float albedo = colour_average(b->diffuse);
+#if TRIAD_DIFFUSE_TRANSMISSION
+    albedo += colour_average(b->diffuse_through);
 #endif
     return albedo;
 }
@@ -100,9 +104,9 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     BaseBsdf b;
 #if !TRIAD_SPECULAR
     (void)wo, (void)albedo_tables;
-    (void)base_lambert(&b, in, 1.0f);
+    base_lambert(&b, in, 1.0f);
 #if BSDF_LAYERED
-    b.albedo = colour_average(in->base_colour);
+    b.albedo = base_lambert_albedo(&b);
 #endif
 #else
     float f0 = fresnel_normal(in->ior);
@@ -135,11 +139,9 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     if (lambert) { /* what follows would come to the same bits */
         b.specular0 = b.specular1 = colour_splat(0.0f);
         b.p_specular = 0.0f;
-        float lambert_albedo = base_lambert(&b, in, opaque);
+        base_lambert(&b, in, opaque);
 #if BSDF_LAYERED
-        b.albedo = lambert_albedo;
-#else
-        (void)lambert_albedo;
+        b.albedo = base_lambert_albedo(&b);
 #endif
         return b;
     }
@@ -153,7 +155,6 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
 #endif
     float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
 
-    b.stretch = base_stretch(&b, wo);
     Colour metal0 = in->base_colour;
     Colour metal = colour_scale(colour_fma_scale(missing, metal0, colour_splat(1.0f)), in->metallic);
     Colour coat = colour_fma_scale(missing, coat0, colour_splat(1.0f));
@@ -162,17 +163,21 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     b.specular1 = colour_fma(metal, colour_complement(metal0), colour_mul(opaque_coat, coat_rise));
     Colour coat_albedo =
         colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
-    float film_albedo = 0.0f;
 #if BSDF_FILM
+    b.stretch = base_stretch(&b, wo); /* the film's mean needs it */
+    float film_albedo = 0.0f;
     if (in->film > 0.0f) {
         b.film0 = colour_fma_scale(in->metallic, colour_sub(metal0, coat0), coat0);
         film_albedo = base_add_film(&b, in, wo, opaque, albedo.x, &coat_albedo);
     }
 #endif
-    float d = base_lambert(&b, in, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
+    base_lambert(&b, in, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
 
+    b.stretch = base_stretch(&b, wo);
     float p = colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
+#if BSDF_FILM
     p += film_albedo;
+#endif
     uint bounded = !b.smooth;
 #if BSDF_TRANSMISSION
     b.p_cap = 0.0f;
@@ -182,6 +187,7 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     }
 #endif
     b.cap = bounded ? ggx_cap(wo, b.alpha) : 1.0f;
+    float d = base_lambert_albedo(&b);
 #if BSDF_LAYERED
     b.albedo = p + d;
 #endif
