@@ -20,11 +20,11 @@ TRIAD_FUNCTION void vertex_core_extensions(const Scene* scene, const Surface* s,
 #endif
 #if BSDF_FILM
     input->film = s->film;
-    input->film_input->ior = s->film_ior;
-    input->film_input->thickness = s->film_thickness;
-    input->film_input->responses = scene->film_responses;
+    input->film_input.ior = s->film_ior;
+    input->film_input.thickness = s->film_thickness;
+    input->film_input.responses = scene->film_responses;
 #if TRIAD_HERO
-    input->film_input->wavelengths = s->wavelengths;
+    input->film_input.wavelengths = s->wavelengths;
 #endif
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION
