@@ -77,36 +77,35 @@ class TexturePacker {
     }
 };
 
-/// The blocks of a material that has any.
+/// The blocks of a material that has any: one that it lacks does nothing and uses no texture.
 dev::MaterialExtensions extensions_of(const Material& m, TexturePacker& textures) {
+    const Clearcoat c = m.clearcoat.value_or(Clearcoat{});
+    const Sheen s = m.sheen.value_or(Sheen{});
+    const Anisotropy a = m.anisotropy.value_or(Anisotropy{});
+    const Iridescence i = m.iridescence.value_or(Iridescence{});
+    const DiffuseTransmission d = m.diffuse_transmission.value_or(DiffuseTransmission{});
     dev::MaterialExtensions e{};
-    if (const auto& c = m.clearcoat)
-        e.clearcoat = {c->factor,
-                       c->roughness,
-                       c->normal_scale,
-                       textures.use(c->texture, false),
-                       textures.use(c->roughness_texture, false),
-                       textures.use(c->normal_texture, false)};
-    if (const auto& s = m.sheen)
-        e.sheen = {{s->colour.x, s->colour.y, s->colour.z},
-                   s->roughness,
-                   textures.use(s->colour_texture, true),
-                   textures.use(s->roughness_texture, false)};
-    if (const auto& a = m.anisotropy)
-        e.anisotropy = {
-            a->strength, {std::cos(a->rotation), std::sin(a->rotation)}, textures.use(a->texture, false)};
-    if (const auto& i = m.iridescence)
-        e.iridescence = {i->factor,
-                         i->ior,
-                         i->thickness_minimum,
-                         i->thickness_maximum,
-                         textures.use(i->texture, false),
-                         textures.use(i->thickness_texture, false)};
-    if (const auto& d = m.diffuse_transmission)
-        e.diffuse_transmission = {d->factor,
-                                  {d->colour.x, d->colour.y, d->colour.z},
-                                  textures.use(d->texture, false),
-                                  textures.use(d->colour_texture, true)};
+    e.clearcoat = {c.factor,
+                   c.roughness,
+                   c.normal_scale,
+                   textures.use(c.texture, false),
+                   textures.use(c.roughness_texture, false),
+                   textures.use(c.normal_texture, false)};
+    e.sheen = {{s.colour.x, s.colour.y, s.colour.z},
+               s.roughness,
+               textures.use(s.colour_texture, true),
+               textures.use(s.roughness_texture, false)};
+    e.anisotropy = {a.strength, {std::cos(a.rotation), std::sin(a.rotation)}, textures.use(a.texture, false)};
+    e.iridescence = {i.factor,
+                     i.ior,
+                     i.thickness_minimum,
+                     i.thickness_maximum,
+                     textures.use(i.texture, false),
+                     textures.use(i.thickness_texture, false)};
+    e.diffuse_transmission = {d.factor,
+                              {d.colour.x, d.colour.y, d.colour.z},
+                              textures.use(d.texture, false),
+                              textures.use(d.colour_texture, true)};
     return e;
 }
 

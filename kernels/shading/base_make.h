@@ -173,7 +173,9 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
 #endif
     base_lambert(&b, in, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
 
+#if !BSDF_FILM
     b.stretch = base_stretch(&b, wo);
+#endif
     float p = colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
 #if BSDF_FILM
     p += film_albedo;

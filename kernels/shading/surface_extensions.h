@@ -39,7 +39,7 @@ TRIAD_FUNCTION void surface_extend(const Scene* scene, global const Material* m,
 #endif
 #if TRIAD_SHEEN
     s->sheen = vec3_splat(0.0f);
-    if (has && math_max(e->sheen.colour[0], math_max(e->sheen.colour[1], e->sheen.colour[2])) > 0.0f) {
+    if (has) {
         global const SheenBlock* b = &e->sheen;
         s->sheen = vec3_mul(VEC3_OF(b->colour), vec4_xyz(surface_texture(scene, b->colour_use, s, one)));
         s->sheen_roughness = b->roughness * surface_texture(scene, b->roughness_use, s, one).w;
