@@ -88,6 +88,7 @@
  * crop, row by row. */
 #define COUNT_WORK_LIST(ARRAY, OWNED, SHARED, VALUE) \
     OWNED(PixelWork, work)                           \
+    OWNED(EdgeWork, edges) /* [WORK_EDGES] */        \
     VALUE(uint, first_pixel)                         \
     VALUE(uint, pixel_count)                         \
     VALUE(uint, sample_count)

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/repetitions.h"
+#include "metric/repetitions.h"
 
 namespace triad {
 

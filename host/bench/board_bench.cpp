@@ -7,7 +7,7 @@
 #include "bench/display_bench.h"
 #include "bench/kernel_bench.h"
 #include "bench/kernel_bench_cases.h"
-#include "bench/profile.h"
+#include "bench/profile_run.h"
 #include "display/reconstruction.h"
 #include "scene/builtin_scene.h"
 #include "scene/scene.h"

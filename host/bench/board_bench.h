@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "bench/board.h"
-#include "bench/device_peaks.h"
 #include "bvh/bvh.h"
+#include "profile/device_peaks.h"
 #include "trace/path_driver.h"
 #include "trace/work_counter.h"
 

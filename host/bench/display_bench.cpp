@@ -1,6 +1,7 @@
 #include "bench/display_bench.h"
 
 #include <random>
+#include <span>
 #include <vector>
 
 namespace triad {
@@ -26,15 +27,15 @@ std::map<std::string, Estimate> time_display(Device& device, const Film& film,
                                              const DisplaySettings& settings, unsigned rounds) {
     std::map<std::string, std::vector<double>> all;
     resolve_display(device, film, settings);  // compiles
-    std::map<std::string, KernelTime> before = device.times();
     for (unsigned i = 0; i < rounds; ++i) {
+        const std::size_t before = device.commands().size();
         resolve_display(device, film, settings);
-        const std::map<std::string, KernelTime> after = device.times();
-        for (const auto& [kernel, time] : after)
-            if (time.launches > before[kernel].launches)
-                all[kernel].push_back((time.seconds - before[kernel].seconds) * 1e3 /
-                                      (double(film.pixels()) * 1e-6));
-        before = after;
+        std::map<std::string, double> milliseconds;
+        for (const DeviceCommand& command : std::span(device.commands()).subspan(before))
+            if (command.kind == CommandKind::kernel)
+                milliseconds[command.name] += 1e-6 * double(command.end - command.start);
+        for (const auto& [kernel, ms] : milliseconds)
+            all[kernel].push_back(ms / (double(film.pixels()) * 1e-6));
     }
     std::map<std::string, Estimate> times;
     for (const auto& [kernel, values] : all) times[kernel] = median_estimate(values);

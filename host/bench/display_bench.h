@@ -3,9 +3,9 @@
 #include <map>
 #include <string>
 
-#include "bench/repetitions.h"
 #include "device/device.h"
 #include "display/resolve.h"
+#include "metric/repetitions.h"
 
 namespace triad {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/temporary_folder.h"
-#include "bench/repetitions.h"
 #include "device/device.h"
+#include "metric/repetitions.h"
 
 namespace triad {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/repetitions.h"
 #include "device/device.h"
+#include "metric/repetitions.h"
 
 namespace triad {
 

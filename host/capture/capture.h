@@ -39,6 +39,7 @@ struct Capture {
     std::uint64_t width = 0, height = 0, bins = 0;  ///< of the film's crop; bins of a pixel
     Recording work;
     std::vector<CapturedArray> film;
+    std::string counted;  ///< what rays took of the trees, JSON (profile/work_json.h); empty: not counted
 };
 
 /// Throws Error(scene) where it cannot be written.

@@ -154,7 +154,8 @@ std::string capture_header(const Capture& capture, ContentTable& contents) {
                 {"functions", functions},
                 {"memories", memories},
                 {"arguments", lists},
-                {"commands", commands}}
+                {"commands", commands},
+                {"counted", capture.counted.empty() ? json() : json::parse(capture.counted)}}
         .dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -184,6 +185,8 @@ Capture capture_of_header(const std::string& text, const ContentAt& content_at, 
             work.commands.push_back(command_of(command, content_at, refuse));
         for (const json& array : header.at("arrays"))
             capture.film.push_back(array_of(array, content_at, refuse));
+        const json counted = header.value("counted", json());
+        if (!counted.is_null()) capture.counted = counted.dump();
     } catch (const json::exception& error) {
         refuse(std::string("its header is not one: ") + error.what());
     }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <sstream>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -16,7 +17,6 @@
 #include "report/board_json.h"
 #include "report/board_page.h"
 #include "report/board_table.h"
-#include "session/check_outputs.h"
 
 namespace triad {
 namespace {

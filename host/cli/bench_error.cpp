@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -15,9 +16,9 @@
 #include "cli/command_line.h"
 #include "cli/experiment.h"
 #include "cli/option_kinds.h"
+#include "page/html.h"
 #include "report/bench_tables.h"
 #include "report/error_report.h"
-#include "session/check_outputs.h"
 #include "session/prepare.h"
 #include "session/reference_store.h"
 

@@ -3,10 +3,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "base/interrupt.h"
 #include "bench/feature_bench.h"
 #include "report/report.h"
-#include "session/check_outputs.h"
 #include "trace/tune.h"
 
 namespace triad {

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "bench/kernel_bench.h"
 #include "report/report.h"
-#include "session/check_outputs.h"
 
 namespace triad {
 namespace {

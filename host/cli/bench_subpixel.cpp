@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -14,8 +15,8 @@
 #include "cli/experiment.h"
 #include "cli/option_kinds.h"
 #include "cli/suite.h"
+#include "page/html.h"
 #include "report/subpixel_report.h"
-#include "session/check_outputs.h"
 #include "session/panel_file.h"
 #include "session/prepare.h"
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
@@ -14,7 +15,6 @@
 #include "cli/render_options.h"
 #include "io/io.h"
 #include "session/capture_pass.h"
-#include "session/check_outputs.h"
 
 namespace triad {
 namespace {

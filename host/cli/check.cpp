@@ -3,12 +3,12 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "base/log.h"
 #include "check/check.h"
 #include "check/verdict.h"
 #include "cli/command_line.h"
 #include "report/report.h"
-#include "session/check_outputs.h"
 #include "trace/node_format.h"
 #include "trace/tune.h"
 

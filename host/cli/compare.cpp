@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "base/check_outputs.h"
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
 #include "cli/error_map.h"
@@ -14,7 +15,6 @@
 #include "metric/flip.h"
 #include "metric/image_metrics.h"
 #include "report/report.h"
-#include "session/check_outputs.h"
 #include "session/metadata.h"
 #include "session/output.h"
 

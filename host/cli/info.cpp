@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/check_outputs.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/command_line.h"
@@ -13,7 +14,6 @@
 #include "io/io.h"
 #include "report/report.h"
 #include "scene/scene.h"
-#include "session/check_outputs.h"
 
 namespace triad {
 namespace {

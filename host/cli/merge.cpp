@@ -2,11 +2,11 @@
 // matter.
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "cli/command_line.h"
 #include "report/report.h"
-#include "session/check_outputs.h"
 #include "session/metadata.h"
 #include "session/output.h"
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
@@ -13,7 +14,6 @@
 #include "report/error_pictures.h"
 #include "report/panel_chart.h"
 #include "report/panel_report.h"
-#include "session/check_outputs.h"
 #include "session/panel_file.h"
 
 namespace triad {

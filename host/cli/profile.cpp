@@ -6,17 +6,18 @@
 #include <utility>
 #include <vector>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/spans.h"
-#include "bench/profile.h"
+#include "bench/profile_run.h"
 #include "cli/command_line.h"
 #include "cli/option_kinds.h"
 #include "cli/render_options.h"
-#include "report/profile_page.h"
-#include "report/profile_report.h"
-#include "session/check_outputs.h"
+#include "profile/profile_page.h"
+#include "profile/profile_report.h"
+#include "report/profile_maps.h"
 #include "session/render_session.h"
 
 namespace triad {
@@ -61,18 +62,11 @@ void check(const ProfileOptions& o) {
     if (!o.folder.empty()) refuse_to_replace({o.folder + "/index.html"}, inputs);
 }
 
-Json earlier(const std::string& path) {
-    const std::vector<std::uint8_t> file = read_file(path, 1u << 28);
-    Json json = Json::parse(file.begin(), file.end(), nullptr, false);
-    if (json.is_discarded()) throw Error(Exit::scene, "--against " + path + ": that is no JSON.");
-    return json;
-}
-
 Exit run(ProfileOptions o) {
     check(o);
     o.request.profile = true;
     if (!o.request.spp) o.request.spp = 8;
-    const Json before = o.against.empty() ? Json() : earlier(o.against);
+    const Json before = o.against.empty() ? Json() : earlier_report(o.against);
     keep_spans();
     std::vector<Profile> profiles;
     Json workload;
@@ -97,15 +91,13 @@ Exit run(ProfileOptions o) {
     if (!o.folder.empty()) {
         std::filesystem::create_directories(o.folder);
         write_file(std::filesystem::path(o.folder) / "index.html",
-                   profile_page(profiles, kept_spans(), command_words()));
+                   profile_page(profiles, kept_spans(), command_words(), profile_maps()));
         inform("Page: " + o.folder + "/index.html");
     }
     if (o.against.empty()) return Exit::done;
-    const std::vector<KernelChange> changes = changes_since(before, profiles, workload);
-    bool is_slower = false;
-    for (const KernelChange& change : changes) is_slower |= change.is_slower;
+    const std::vector<KernelChange> changes = changes_since(before, "profile", profiles, workload);
     if (o.json != "-") std::printf("\n%s", table_of(changes).c_str());
-    return is_slower ? Exit::comparison : Exit::done;
+    return any_slower(changes) ? Exit::comparison : Exit::done;
 }
 
 }  // namespace

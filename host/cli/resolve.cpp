@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "cli/command_line.h"
 #include "cli/option_kinds.h"
 #include "cli/output_options.h"
 #include "cli/reconstruct_options.h"
-#include "session/check_outputs.h"
 #include "session/metadata.h"
 #include "session/output.h"
 

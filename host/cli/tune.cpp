@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/check_outputs.h"
 #include "cli/command_line.h"
 #include "report/report.h"
-#include "session/check_outputs.h"
 #include "trace/tune.h"
 
 namespace triad {

@@ -150,13 +150,6 @@ class Program {
     std::shared_ptr<const opencl::ProgramState> state_;
 };
 
-/// Times of one kernel, from profiling events, in seconds.
-struct KernelTime {
-    std::size_t launches = 0;
-    double seconds = 0;
-    std::vector<double> each;  ///< of the launches, in their order
-};
-
 /// What a command of the queue does.
 enum class CommandKind { kernel, write, read, fill };
 
@@ -206,7 +199,7 @@ class Device {
         std::string selector;  ///< "", index, "cpu"/"gpu", or part of the name or platform (case ignored)
         unsigned threads = 0;  ///< CPU devices: compute units to use (0 = all)
         unsigned part = 0, parts = 1;  ///< CPU devices: the part-th (from 0) of so many equal parts of them
-        bool profile = false;          ///< profiling queue; see times()
+        bool profile = false;          ///< profiling queue; see commands()
         std::size_t largest_allocation = 0;  ///< at most so many bytes in one piece (0: what the device says)
     };
 
@@ -286,7 +279,6 @@ class Device {
     const std::string& platform_version() const;           ///< of the driver's platform, as it says
     double compile_seconds() const;                        ///< spent in build() so far
     const std::vector<Compilation>& compilations() const;  ///< of build(), in order
-    std::map<std::string, KernelTime> times();             ///< by kernel; empty unless settings.profile
     /// All that the queue did so far, in order; empty unless settings.profile. Waits for the queue.
     const std::vector<DeviceCommand>& commands();
     /// Of every kernel that was made so far.

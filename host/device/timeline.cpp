@@ -53,18 +53,6 @@ const std::vector<DeviceCommand>& Device::commands() {
     return state_->ended;
 }
 
-std::map<std::string, KernelTime> Device::times() {
-    std::map<std::string, KernelTime> times;
-    for (const DeviceCommand& command : commands()) {
-        if (command.kind != CommandKind::kernel) continue;
-        KernelTime& sum = times[command.name];
-        ++sum.launches;
-        sum.each.push_back(static_cast<double>(command.end - command.start) * 1e-9);
-        sum.seconds += sum.each.back();
-    }
-    return times;
-}
-
 const std::vector<Compilation>& Device::compilations() const { return state_->compilations; }
 
 std::vector<KernelFacts> Device::kernels() const {

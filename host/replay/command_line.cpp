@@ -15,6 +15,10 @@ void declare(CLI::App& app, ReplayRequest& o) {
         ->check(CLI::Range(0u, 100000u))
         ->type_name("N");
     app.add_option("--json", o.json, "Write the rows as JSON (-: standard output)")->type_name("FILE");
+    app.add_option("-o,--output", o.folder, "Write a page, index.html, into this folder")->type_name("DIR");
+    app.add_option("--against", o.against,
+                   "An earlier --json of the same capture: exit 7 where a kernel became slower beyond noise")
+        ->type_name("FILE");
     app.add_option_function<std::string>(
            "--verify",
            [&o](const std::string& rule) {

@@ -10,7 +10,7 @@
 namespace triad {
 
 struct ReplayRequest {
-    std::string capture, device, json, kernels, extract, kernel;
+    std::string capture, device, json, folder, against, kernels, extract, kernel;
     unsigned threads = 0;
     unsigned repeat = 5;
     std::optional<std::size_t> launch;  ///< of `kernel`, from 1; none: the longest

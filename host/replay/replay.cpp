@@ -2,20 +2,24 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 #include <variant>
 
-#include "base/log.h"
+#include "base/check_outputs.h"
+#include "base/files.h"
+#include "base/hash.h"
 #include "base/text.h"
 #include "capture/capture.h"
 #include "check/check.h"
+#include "profile/profile_page.h"
+#include "profile/profile_report.h"
+#include "replay/captured_shape.h"
 #include "replay/command_line.h"
 #include "replay/include_tree.h"
-#include "replay/kernel_rows.h"
+#include "replay/replay_profile.h"
 #include "replay/replayer.h"
 #include "replay/tune_sizes.h"
-#include "trace/node_format.h"
-#include "trace/path_driver.h"
 
 namespace triad {
 namespace {
@@ -34,14 +38,6 @@ class Lines {
     bool shown_;
 };
 
-std::map<std::string, std::uint64_t> items_of(const Replayer& replayer) {
-    std::map<std::string, std::uint64_t> items;
-    for (const Recording::Command& command : replayer.capture().work.commands)
-        if (const auto* launch = std::get_if<Recording::Launch>(&command))
-            items[replayer.kernel_of(*launch)] += launch->items;
-    return items;
-}
-
 std::string words_of(const Capture& capture) {
     const CaptureOrigin& origin = capture.origin;
     return format(
@@ -53,23 +49,11 @@ std::string words_of(const Capture& capture) {
         capture.work.commands.size(), capture.work.functions.size(), capture.work.memories.size());
 }
 
-/// As the capture has them.
-void set_shape_of(Device& device, const Recording& work) {
-    for (const Recording::Source& source : work.sources) {
-        const auto format = source.options.find("TRIAD_BVH4");
-        if (format != source.options.end())
-            set_format(device, format->second == "1" ? BvhFormat::bvh4 : BvhFormat::bvh8);
-        if (source.path.starts_with("path/wave_stages"))
-            set_path_driver(device, PathDriverKind::wave_stages);
-        else if (source.path.starts_with("path/wave"))
-            set_path_driver(device, PathDriverKind::wave);
-    }
-}
-
 /// With a device of its own, whose shape is the check's.
 Json check(const ReplayRequest& o, const Capture& capture, const Lines& lines) {
     Device device = Device::open({.selector = o.device, .threads = o.threads});
-    set_shape_of(device, capture.work);
+    set_format(device, captured_format(capture.work));
+    set_path_driver(device, captured_driver(capture.work));
     Json rows = Json::array();
     std::size_t wrong = 0;
     run_cases(device, cases_of(CheckLevel::quick), CheckLevel::quick, [&](const CheckResult& r) {
@@ -101,48 +85,19 @@ std::size_t chosen_launch(Replayer& replayer, const ReplayRequest& o) {
         throw Error(Exit::usage, "--launch " + std::to_string(*o.launch) + ": the capture has " +
                                      std::to_string(places.size()) + " launches of " + o.kernel + ".");
     if (o.launch) return places[*o.launch - 1];
-    replayer.take_times();
-    replayer.run();
-    const std::vector<double> times = replayer.take_times()[o.kernel];
+    std::vector<std::int64_t> times;
+    for (const DeviceCommand& command : replayer.run().commands)
+        if (command.name == o.kernel) times.push_back(command.end - command.start);
     return places[std::size_t(std::max_element(times.begin(), times.end()) - times.begin())];
 }
 
-std::vector<LaunchRow> measured_alone(Replayer& replayer, const ReplayRequest& o, const Lines& lines) {
+Profile measured_alone(Replayer& replayer, const ReplayRequest& o, const Lines& lines) {
     const std::size_t place = chosen_launch(replayer, o);
     const std::vector<std::size_t> places = replayer.launches_of(o.kernel);
     const auto number = std::find(places.begin(), places.end(), place) - places.begin() + 1;
     lines.say(
         format("Launch %zu of %zu of %s, alone\n", std::size_t(number), places.size(), o.kernel.c_str()));
-    replayer.repeat(place, o.repeat);
-    const auto& launch = std::get<Recording::Launch>(replayer.capture().work.commands[place]);
-    return kernel_rows({{o.kernel, launch.items}}, replayer.take_times(), o.repeat);
-}
-
-/// Some drivers stamp the events of all launches with the same time.
-constexpr double least_share_of_events = 0.01;
-
-struct Measured {
-    std::vector<LaunchRow> rows;
-    double ms_of_run = 0;  ///< by the host's clock: the least
-};
-
-Measured measured(Replayer& replayer, unsigned runs, const LocalSizes& sizes = {}) {
-    replayer.take_times();
-    double least = INFINITY;
-    for (unsigned i = 0; i < runs; ++i) least = std::min(least, replayer.run(sizes));
-    Measured m{kernel_rows(items_of(replayer), replayer.take_times(), runs), 1e3 * least};
-    double events = 0;
-    for (const LaunchRow& row : m.rows) events += row.ms_total;
-    if (events < least_share_of_events * m.ms_of_run)
-        warn(format(
-            "The driver's profiling events add up to %.3g of the %.3g ms that a run takes: it does not "
-            "time launches, and the rows say nothing.",
-            events, m.ms_of_run));
-    return m;
-}
-
-std::string text_of(const Measured& m) {
-    return table_text(m.rows) + format("A run takes %.3f ms by the host's clock\n", m.ms_of_run);
+    return profile_alone(replayer, place, o.repeat);
 }
 
 /// Of runs on one device.
@@ -152,9 +107,55 @@ void require_same(Replayer& replayer, const ReplayedFilm& film) {
                     "The last run ended with other bits than the first: the device does not repeat itself.");
 }
 
+/// What the JSON has of it.
+Json tune(Replayer& replayer, const ReplayedFilm& film, unsigned runs, const Lines& lines) {
+    const std::vector<SizeTiming> timings = tune_sizes(replayer, film, runs);
+    lines.say(table_text(timings));
+    const Profile tuned = profile_of(replayer, runs, best_of(timings));
+    require_same(replayer, film);
+    lines.say("With the best of them:\n" + kernels_table(tuned) + "\n");
+    return {{"sizes", to_json(timings)}, {"tuned_rows", rows_of({tuned})}};
+}
+
+/// What a report of other work is told by: equal work makes an equal film.
+Json workload_of(const Capture& capture, const ReplayRequest& o) {
+    Hash film;
+    for (const CapturedArray& array : capture.film) film.add(array.content->data(), array.content->size());
+    Json work = {{"film", film.hex()}};
+    if (!o.kernel.empty()) work["launch"] = o.kernel + " " + std::to_string(o.launch.value_or(0));
+    return work;
+}
+
+/// The same as triad profile's. Whether a kernel became slower.
+bool report(const Profile& p, const ReplayRequest& o, const Json& before, Json more, const Lines& lines) {
+    lines.say(table_of({p}));
+    more["devices"] = devices_of({p});
+    if (!o.json.empty()) write_report(o.json, "replay", &p.device, rows_of({p}), more);
+    if (!o.folder.empty()) {
+        std::filesystem::create_directories(o.folder);
+        write_file(std::filesystem::path(o.folder) / "index.html", profile_page({p}, {}, command_words()));
+        lines.say("Page: " + o.folder + "/index.html\n");
+    }
+    if (before.is_null()) return false;
+    const std::vector<KernelChange> changes = changes_since(before, "replay", {p}, more.at("workload"));
+    lines.say("\n" + table_of(changes));
+    return any_slower(changes);
+}
+
+/// Before anything is done.
+void check_paths(const ReplayRequest& o) {
+    const std::vector<std::string> inputs{o.capture, o.kernels, o.against};
+    check_outputs({o.json}, inputs);
+    if (!o.folder.empty()) refuse_to_replace({o.folder + "/index.html"}, inputs);
+    if (o.repeat == 0 && !(o.folder.empty() && o.against.empty()))
+        throw Error(Exit::usage, "--repeat 0 measures nothing that -o could show or --against compare.");
+}
+
 }  // namespace
 
 Exit replay(const ReplayRequest& o) {
+    check_paths(o);
+    const Json before = o.against.empty() ? Json() : earlier_report(o.against);
     Capture capture = read_capture(o.capture);
     const Lines lines(o.json != "-");
     if (!o.extract.empty()) {
@@ -176,6 +177,7 @@ Exit replay(const ReplayRequest& o) {
                    {"device", capture.origin.device},
                    {"driver", capture.origin.driver},
                    {"version", capture.origin.version}}},
+                 {"workload", workload_of(capture, o)},
                  {"changed_programs", changed}};
     if (o.check) more["check"] = check(o, capture, lines);
 
@@ -189,29 +191,18 @@ Exit replay(const ReplayRequest& o) {
     more["verification"] = to_json(verification);
     if (verification.ok) lines.say(verification.sentence + "\n");
 
-    std::vector<LaunchRow> rows;
-    if (o.repeat > 0 && !o.kernel.empty()) {
-        rows = measured_alone(replayer, o, lines);
-        lines.say(table_text(rows));
-    } else if (o.repeat > 0) {
-        const Measured all = measured(replayer, o.repeat);
-        require_same(replayer, film);
-        rows = all.rows;
-        lines.say(text_of(all));
-        more["run_ms"] = all.ms_of_run;
+    bool is_slower = false;
+    if (o.repeat == 0) {
+        if (!o.json.empty()) write_report(o.json, "replay", &device.info(), Json::array(), more);
+    } else {
+        Profile p = o.kernel.empty() ? profile_of(replayer, o.repeat) : measured_alone(replayer, o, lines);
+        if (o.kernel.empty()) require_same(replayer, film);
+        if (o.tune) more.update(tune(replayer, film, o.repeat, lines));
+        add_roof(p, replayer);
+        is_slower = report(p, o, before, more, lines);
     }
-    if (o.tune && o.repeat > 0) {
-        const std::vector<SizeTiming> timings = tune_sizes(replayer, film, o.repeat);
-        lines.say(table_text(timings));
-        const Measured tuned = measured(replayer, o.repeat, best_of(timings));
-        require_same(replayer, film);
-        lines.say("With the best of them:\n" + text_of(tuned));
-        more["sizes"] = to_json(timings);
-        more["tuned_rows"] = to_json(tuned.rows);
-    }
-    if (!o.json.empty()) write_report(o.json, "replay", &device.info(), to_json(rows), more);
     if (!verification.ok) throw Error(Exit::comparison, verification.sentence);
-    return Exit::done;
+    return is_slower ? Exit::comparison : Exit::done;
 }
 
 }  // namespace triad

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <utility>
 #include <variant>
@@ -64,13 +65,24 @@ void Replayer::enqueue(const Recording::Command& command, const LocalSizes& size
     }
 }
 
-double Replayer::run(const LocalSizes& sizes) {
-    restore();
+ReplayedRun Replayer::timed(const std::function<void()>& enqueue) {
     device_.finish();
+    const std::size_t before = device_.commands().size();
     const auto start = std::chrono::steady_clock::now();
-    for (const Recording::Command& command : capture_.work.commands) enqueue(command, sizes);
+    enqueue();
     device_.finish();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ReplayedRun run;
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const std::vector<DeviceCommand>& all = device_.commands();
+    run.commands.assign(all.begin() + std::ptrdiff_t(before), all.end());
+    return run;
+}
+
+ReplayedRun Replayer::run(const LocalSizes& sizes) {
+    restore();
+    return timed([&] {
+        for (const Recording::Command& command : capture_.work.commands) enqueue(command, sizes);
+    });
 }
 
 ReplayedFilm Replayer::film() {
@@ -91,7 +103,7 @@ std::vector<std::size_t> Replayer::launches_of(const std::string& kernel) const 
     return places;
 }
 
-void Replayer::repeat(std::size_t place, unsigned times) {
+std::vector<ReplayedRun> Replayer::repeat(std::size_t place, unsigned times) {
     restore();
     const auto& commands = capture_.work.commands;
     for (std::size_t i = 0; i < place; ++i) enqueue(commands[i], {});
@@ -105,24 +117,13 @@ void Replayer::repeat(std::size_t place, unsigned times) {
         content.resize(buffers_[*memory].bytes());
         device_.read(buffers_[*memory], content.data(), content.size());
     }
-    take_times();
+    std::vector<ReplayedRun> runs;
     for (unsigned i = 0; i < times; ++i) {
         for (const auto& [memory, content] : before)
             device_.write(buffers_[memory], content.data(), content.size());
-        enqueue(commands[place], {});
-        device_.finish();
+        runs.push_back(timed([&] { enqueue(commands[place], {}); }));
     }
-}
-
-std::map<std::string, std::vector<double>> Replayer::take_times() {
-    std::map<std::string, std::vector<double>> times;
-    for (const auto& [kernel, time] : device_.times()) {
-        std::size_t& taken = taken_[kernel];
-        if (time.each.size() > taken)
-            times[kernel].assign(time.each.begin() + std::ptrdiff_t(taken), time.each.end());
-        taken = time.each.size();
-    }
-    return times;
+    return runs;
 }
 
 }  // namespace triad

@@ -1,6 +1,7 @@
 #pragma once
 /// The work of a capture, done again on a device.
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -16,24 +17,27 @@ using LocalSizes = std::map<std::string, std::size_t>;
 /// The arrays of a capture's film, in its order.
 using ReplayedFilm = std::vector<AlignedVector<std::byte>>;
 
+/// What a run took: by the host's clock, and command by command.
+struct ReplayedRun {
+    double seconds = 0;
+    std::vector<DeviceCommand> commands;
+};
+
 class Replayer {
   public:
     /// Compiles the programs and allocates the buffers. Both must live as long. Throws DeviceError.
     Replayer(Device& device, const Capture& capture);
 
-    /// Everything from the beginning, to its end. Returns how many seconds it took by the host's clock.
-    double run(const LocalSizes& sizes = {});
+    /// Everything from the beginning, to its end.
+    ReplayedRun run(const LocalSizes& sizes = {});
     /// What the buffers of the film hold.
     ReplayedFilm film();
 
     /// Places of the launches of a kernel among the commands; empty: there is none of that name.
     std::vector<std::size_t> launches_of(const std::string& kernel) const;
     /// Everything up to command `place`, a launch, and then it alone so many times, each time with the
-    /// buffers as they were before it.
-    void repeat(std::size_t place, unsigned times);
-
-    /// Of each kernel, the seconds of its launches since this was last asked, in their order.
-    std::map<std::string, std::vector<double>> take_times();
+    /// buffers as they were before it: a run each.
+    std::vector<ReplayedRun> repeat(std::size_t place, unsigned times);
 
     const std::string& kernel_of(const Recording::Launch& launch) const {
         return capture_.work.functions[launch.function].name;
@@ -48,10 +52,11 @@ class Replayer {
     std::vector<Buffer> buffers_;
     std::vector<Kernel> kernels_;
     std::vector<Arguments> arguments_;
-    std::map<std::string, std::size_t> taken_;  ///< launches whose times were taken
 
     void restore();
     void enqueue(const Recording::Command& command, const LocalSizes& sizes);
+    /// Of what `enqueue` enqueues.
+    ReplayedRun timed(const std::function<void()>& enqueue);
 };
 
 }  // namespace triad

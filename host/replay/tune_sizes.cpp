@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <variant>
 
 #include "base/error.h"
@@ -36,12 +35,12 @@ std::vector<SizeTiming> tune_sizes(Replayer& replayer, const ReplayedFilm& film,
         LocalSizes sizes;
         for (const std::string& name : names) sizes[name] = local;
         replayer.run(sizes);  // some drivers compile a kernel for each size
-        replayer.take_times();
         std::map<std::string, double> least;
         for (unsigned i = 0; i < runs; ++i) {
-            replayer.run(sizes);
-            for (const auto& [name, each] : replayer.take_times()) {
-                const double sum = std::accumulate(each.begin(), each.end(), 0.0);
+            std::map<std::string, double> sums;
+            for (const DeviceCommand& command : replayer.run(sizes).commands)
+                sums[command.name] += 1e-9 * double(command.end - command.start);
+            for (const auto& [name, sum] : sums) {
                 const auto [found, is_first] = least.try_emplace(name, sum);
                 if (!is_first) found->second = std::min(found->second, sum);
             }

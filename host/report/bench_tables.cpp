@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "base/text.h"
-#include "report/aligned.h"
+#include "page/aligned.h"
 #include "report/error_words.h"
 
 namespace triad {

@@ -4,11 +4,11 @@
 
 #include "base/log.h"
 #include "base/text.h"
+#include "page/gnuplot.h"
+#include "page/html.h"
 #include "report/board_plots.h"
 #include "report/board_table.h"
 #include "report/error_plots.h"
-#include "report/gnuplot.h"
-#include "report/html.h"
 #include "report/report.h"
 
 namespace triad {

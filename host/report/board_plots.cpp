@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "page/gnuplot.h"
 #include "report/board_table.h"
-#include "report/gnuplot.h"
 
 namespace triad {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "report/aligned.h"
+#include "page/aligned.h"
 
 namespace triad {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/text.h"
-#include "report/gnuplot.h"
+#include "page/gnuplot.h"
 
 namespace triad {
 namespace {

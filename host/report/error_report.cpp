@@ -6,10 +6,10 @@
 #include "base/files.h"
 #include "base/log.h"
 #include "base/machine.h"
+#include "page/html.h"
 #include "report/error_pictures.h"
 #include "report/error_plots.h"
 #include "report/error_words.h"
-#include "report/html.h"
 #include "report/report.h"
 
 namespace triad {

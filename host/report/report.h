@@ -1,7 +1,5 @@
 #pragma once
 /// What all reports share, beside the JSON of device/report.h.
-#include <string>
-
 #include "device/report.h"
 #include "scene/film.h"
 
@@ -9,8 +7,5 @@ namespace triad {
 
 /// Samples per pixel: a whole number where all have the same, else their mean.
 Json spp_json(const SampleNumbers& numbers);
-
-/// "2026-11-22 05:10 UTC".
-std::string date_words();
 
 }  // namespace triad

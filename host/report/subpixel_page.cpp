@@ -5,8 +5,8 @@
 #include "base/files.h"
 #include "base/machine.h"
 #include "base/text.h"
-#include "report/error_report_style.h"
-#include "report/html.h"
+#include "page/html.h"
+#include "page/page_style.h"
 #include "report/subpixel_plots.h"
 #include "report/subpixel_report.h"
 #include "report/subpixel_sights.h"
@@ -123,7 +123,7 @@ void write_subpixel_report(const fs::path& folder, const SubpixelReport& report)
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\"><title>Subpixel reconstruction</title><style>";
-    html += error_report_style;
+    html += page_style;
     html +=
         "</style></head><body><h1>Subpixel reconstruction: every method against "
         "triad</h1>\n<dl><dt>Date</dt><dd>" +

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "report/html.h"
+#include "page/html.h"
 
 namespace triad {
 namespace {

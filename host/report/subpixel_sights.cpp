@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "page/html.h"
 #include "panel/perceived.h"
 #include "panel/simulate.h"
 #include "report/error_pictures.h"
-#include "report/html.h"
 #include "report/panel_report.h"
 
 namespace triad {

@@ -5,6 +5,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel_for.h"
 #include "device/report.h"
+#include "profile/work_json.h"
 #include "render/renderer.h"
 #include "session/prepare.h"
 
@@ -73,6 +74,8 @@ Capture capture_pass(RenderRequest request) {
     capture.width = settings.crop[2] ? settings.crop[2] : settings.width;
     capture.height = pixels / capture.width;
     capture.bins = settings.bins_x * settings.bins_y;
+    device.record(nullptr);
+    capture.counted = text_of(renderer.count_work(counted_samples));
     return capture;
 }
 

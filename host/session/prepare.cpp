@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/check_outputs.h"
 #include "base/log.h"
 #include "base/spans.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "scene/strokes.h"
-#include "session/check_outputs.h"
 #include "session/choose_view.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"

@@ -78,7 +78,7 @@ struct RenderRequest {
     /// What ends the render.
     RenderGoal goal() const;
     /// Every file that is written, and every one that is named to be read; some empty
-    /// (session/check_outputs.h).
+    /// (base/check_outputs.h).
     std::vector<std::string> outputs_named() const;
     std::vector<std::string> inputs_named() const;
 };

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/check_outputs.h"
 #include "base/files.h"
 #include "base/log.h"
 #include "base/machine.h"
@@ -17,7 +18,6 @@
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
 #include "io/io.h"
-#include "session/check_outputs.h"
 #include "session/prepare.h"
 #include "trace/node_format.h"
 #include "trace/path_driver.h"

@@ -36,14 +36,20 @@ WorkCounts count_work(Tracer& tracer, unsigned samples) {
     const Kernel kernel = device.build(program_of(tracer.settings(), "count"), options_of(tracer.features()))
                               .kernel("count_work");
     const dev::Frame& frame = tracer.frame();
-    WorkCounts counts{
-        .width = frame.crop[2], .height = frame.crop[3], .samples = samples, .rays = {}, .visits = {}};
+    WorkCounts counts{.width = frame.crop[2],
+                      .height = frame.crop[3],
+                      .samples = samples,
+                      .rays = {},
+                      .edges = {},
+                      .visits = {}};
     const std::size_t pixels = std::size_t(counts.width) * counts.height;
     dev::CountWorkArguments own{.work = device.allocate_array<dev::PixelWork>(pixels),
+                                .edges = device.allocate_array<dev::EdgeWork>(WORK_EDGES),
                                 .first_pixel = 0,
                                 .pixel_count = 0,
                                 .sample_count = samples};
     const std::size_t most = std::max<std::size_t>(64, largest_launch_items / samples / 64 * 64);
+    device.fill_zero(own.edges);
     for (std::size_t first = 0; first < pixels; first += most) {
         own.first_pixel = std::uint32_t(first);
         own.pixel_count = std::uint32_t(std::min(most, pixels - first));
@@ -59,6 +65,9 @@ WorkCounts count_work(Tracer& tracer, unsigned samples) {
         counts.vertices += pixel.vertices;
         counts.visits.push_back(visits);
     }
+    const std::vector<dev::EdgeWork> edges = device.download<dev::EdgeWork>(own.edges);
+    for (std::size_t i = 0; i < WORK_EDGES; ++i)
+        counts.edges[i] = {edges[i].rays, edges[i].hits, edges[i].shadow_rays};
     return counts;
 }
 

@@ -18,14 +18,23 @@ struct RayCounts {
     std::uint32_t deepest = 0;
 };
 
+/// Of the edges of all paths that are the so-manieth of theirs.
+struct EdgeCounts {
+    std::uint64_t rays = 0, hits = 0, shadow_rays = 0;
+};
+
 struct WorkCounts {
     unsigned width = 0, height = 0, samples = 0;  ///< of the crop; per pixel
     std::array<RayCounts, WORK_KINDS> rays;
-    std::uint64_t vertices = 0;         ///< ends of edges that hit something
+    std::array<EdgeCounts, WORK_EDGES> edges;  ///< from the camera's on; the last has all later ones
+    std::uint64_t vertices = 0;                ///< ends of edges that hit something
     std::vector<std::uint32_t> visits;  ///< nodes and leaves, of every pixel's samples together, row by row
 
     RayCounts all() const;
 };
+
+/// Samples of each pixel whose work is counted where nothing but their mean is used.
+constexpr unsigned counted_samples = 4;
 
 /// Of the first samples of every pixel. Rays are those of trace(): the same numbers, the same bits. Photons
 /// have none.

@@ -22,4 +22,10 @@ kernel void count_work(SCENE_PARAMETERS PARAMETERS(COUNT_WORK_LIST)) {
         mega_follow(&scene, &path, &tally);
     }
     work[pixel] = tally.work;
+    for (uint i = 0u; i < WORK_EDGES; ++i) {
+        volatile global EdgeWork* sum = edges + i;
+        atomic_add(&sum->rays, tally.edges[i].rays);
+        atomic_add(&sum->hits, tally.edges[i].hits);
+        atomic_add(&sum->shadow_rays, tally.edges[i].shadow_rays);
+    }
 }

@@ -43,10 +43,13 @@ TRIAD_FUNCTION Hit path_closest(const Scene* scene, const PathState* path, Tally
 #if PATH_FORKS
     if (path_is_back(path)) return path->fork.hit;
 #endif
+#if TRIAD_COUNT_WORK
+    tally->edge = min(path->edge, (uint)WORK_EDGES) - 1u;
+#endif
     const Hit hit = rays_closest(scene, path->ray, path_ray_name(path), tally);
     work_count(tally, path->edge == 1u ? WORK_CAMERA : WORK_BOUNCE);
 #if TRIAD_COUNT_WORK
-    if (hit.primitive != TRIAD_NONE) ++tally->work.vertices;
+    if (hit.primitive != TRIAD_NONE) ++tally->work.vertices, ++tally->edges[tally->edge].hits;
 #endif
     return hit;
 }

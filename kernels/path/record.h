@@ -24,6 +24,8 @@ typedef struct Tally {
 #if TRIAD_COUNT_WORK
     RayWork ray; /* of the present ray */
     PixelWork work;
+    EdgeWork edges[WORK_EDGES];
+    uint edge; /* that the last ray followed, or ended at */
 #endif
 } Tally;
 
@@ -44,6 +46,10 @@ TRIAD_FUNCTION void work_count(Tally* t, uint kind) {
     sum->triangles += t->ray.triangles;
     sum->deepest_sum += t->ray.deepest;
     sum->deepest = max(sum->deepest, t->ray.deepest);
+    if (kind == WORK_SHADOW)
+        ++t->edges[t->edge].shadow_rays;
+    else
+        ++t->edges[t->edge].rays;
     t->ray = work_none();
 }
 
@@ -61,7 +67,8 @@ TRIAD_FUNCTION Tally tally_start(void) {
 #if TRIAD_COUNT_WORK
     t.ray = work_none();
     for (uint kind = 0u; kind < WORK_KINDS; ++kind) t.work.rays[kind] = work_none();
-    t.work.vertices = t.work.unused = 0u;
+    t.work.vertices = t.work.unused = t.edge = 0u;
+    for (uint i = 0u; i < WORK_EDGES; ++i) t.edges[i].rays = t.edges[i].hits = t.edges[i].shadow_rays = 0u;
 #endif
     return t;
 }

@@ -121,6 +121,16 @@ typedef struct PixelWork {
 } PixelWork;
 TRIAD_SIZE(PixelWork, 80);
 
+/* Of an edge of all paths, counted from the camera's: how long the lists of a wave would be. */
+typedef struct EdgeWork {
+    uint rays; /* that follow it */
+    uint hits; /* of them, that end on a surface */
+    uint shadow_rays;
+} EdgeWork;
+TRIAD_SIZE(EdgeWork, 12);
+/* The last one stands for all later edges. */
+#define WORK_EDGES 16
+
 TRIAD_TYPES_END
 
 #endif

@@ -1,7 +1,7 @@
-// triad-bench-rays: rays per second of Triad on one device, beside Embree on the same rays of the same
-// scenes.
+// triad-bench-rays: rays per second of Triad on one device, beside Embree, and beside tinybvh's OpenCL
+// kernels on the same device, on the same rays of the same scenes.
 //   triad-bench-rays [--scene NAME] [--device SEL] [--threads N] [--local N] [--format NAME] [--size N]
-//   [--rounds N] [--json FILE]
+//   [--rounds N] [--tinybvh DIR] [--json FILE]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,6 +16,7 @@
 #include "bench/tree_tracer.h"
 #include "clock.h"
 #include "embree_tracer.h"
+#include "tinybvh_tracer.h"
 #include "trace/node_format.h"
 
 using namespace triad;
@@ -25,7 +26,7 @@ namespace {
 
 struct Options {
     std::vector<std::string> scenes{"cornell", "room", "landscape"};
-    std::string device, json;
+    std::string device, json, tinybvh;
     unsigned threads = 1, size = 768, rounds = 7;
     std::size_t local = 0;
     std::optional<BvhFormat> format;
@@ -62,6 +63,8 @@ Options parse(int argc, char** argv) {
             kernel_source::set_folder(value);
         else if (name == "--clock")
             use_cpu_clock = value == "cpu";
+        else if (name == "--tinybvh")
+            options.tinybvh = value;
         else if (name == "--json")
             options.json = value;
         else
@@ -69,7 +72,7 @@ Options parse(int argc, char** argv) {
                 Exit::usage,
                 "There is no option " + name +
                     "; there are --scene, --device, --threads, --local, --format (bvh8, bvh4), --size, "
-                    "--rounds, --clock, --kernels and --json.");
+                    "--rounds, --clock, --kernels, --tinybvh (the folder of its traverse.cl) and --json.");
     }
     return options;
 }
@@ -90,10 +93,30 @@ double median(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Both Embrees, when there is Embree.
+/// Both Embrees, when there is Embree; tinybvh's layouts by their names, when its kernels are given.
 struct Peers {
     std::unique_ptr<EmbreeTracer> plain, robust;
+    std::vector<std::pair<std::string, std::unique_ptr<TinybvhTracer>>> tinybvh;
 };
+
+/// Of a tracer on the same device, in turns with Triad.
+struct Rival {
+    std::string name;
+    TinybvhTracer* tracer;
+    std::vector<double> seconds;
+};
+
+/// Of distances: its kernels use products that round otherwise.
+std::size_t count_differences(const std::vector<float>& theirs, const std::vector<dev::Hit>& ours,
+                              float reach) {
+    std::size_t differences = 0;
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        const bool miss = ours[i].primitive == TRIAD_NONE, miss_too = !(theirs[i] < 1e29f);
+        differences +=
+            miss != miss_too || (!miss && std::fabs(ours[i].t - theirs[i]) > 1e-3f * (ours[i].t + reach));
+    }
+    return differences;
+}
 
 nlohmann::json measure(const RayScene& scene, const std::string& kind, const std::vector<dev::Ray>& rays,
                        TreeTracer& tracer, const Peers& peers, unsigned rounds) {
@@ -131,9 +154,21 @@ nlohmann::json measure(const RayScene& scene, const std::string& kind, const std
                                               " rays of " + scene.name +
                                               ": no speed is reported for wrong answers.");
     }
+    std::vector<Rival> rivals;
+    if (!occlusion)
+        for (const auto& [name, peer] : peers.tinybvh) {
+            peer->set_rays(rays), peer->trace();
+            row[name + "_differences"] = count_differences(peer->distances(), tracer.hits(), scene.reach);
+            rivals.push_back({name, peer.get(), {}});
+        }
     std::vector<double> triad, plain, robust;
     for (unsigned round = 0; round < rounds; ++round) {
         triad.push_back(traced());
+        for (Rival& rival : rivals) {
+            const double start = now();
+            rival.tracer->trace();
+            rival.seconds.push_back(now() - start);
+        }
         if (!peers.plain) continue;
         plain.push_back(embree(*peers.plain));
         robust.push_back(embree(*peers.robust));
@@ -154,6 +189,14 @@ nlohmann::json measure(const RayScene& scene, const std::string& kind, const std
                     row["embree_robust_mrays"].get<double>(), row["ratio"].get<double>(),
                     row["ratio_robust"].get<double>(), row["differences"].get<std::size_t>());
     }
+    for (const Rival& rival : rivals) {
+        report(rival.name, rival.seconds);
+        row["ratio_" + rival.name] =
+            row["triad_mrays"].get<double>() / row[rival.name + "_mrays"].get<double>();
+        std::printf("  %s %.2f, ratio %.3f, %zu differ", rival.name.c_str(),
+                    row[rival.name + "_mrays"].get<double>(), row["ratio_" + rival.name].get<double>(),
+                    row[rival.name + "_differences"].get<std::size_t>());
+    }
     std::printf("\n");
     std::fflush(stdout);
     return row;
@@ -161,6 +204,9 @@ nlohmann::json measure(const RayScene& scene, const std::string& kind, const std
 
 int run(int argc, char** argv) {
     const Options options = parse(argc, argv);
+    if (!options.tinybvh.empty() && !TinybvhTracer::available())
+        throw Error(Exit::usage,
+                    "This program was built without tinybvh: configure with -DTRIAD_TINYBVH=FOLDER.");
     Device device = Device::open({.selector = options.device, .threads = options.threads});
     if (options.local) device.set_preferred_local(options.local);
     set_format(device, options.format.value_or(default_format(device.info())));
@@ -186,6 +232,10 @@ int run(int argc, char** argv) {
             peers.plain = std::make_unique<EmbreeTracer>(scene, false);
             peers.robust = std::make_unique<EmbreeTracer>(scene, true);
         }
+        if (!options.tinybvh.empty())
+            for (const std::string& layout : TinybvhTracer::layouts())
+                peers.tinybvh.emplace_back(
+                    layout, std::make_unique<TinybvhTracer>(device, scene, layout, options.tinybvh));
         set_host_threads(options.threads);
         const auto add = [&](const char* kind, const std::vector<dev::Ray>& rays) {
             report["rows"].push_back(measure(scene, kind, rays, tracer, peers, options.rounds));

@@ -30,13 +30,11 @@ double copy_speed(const std::string& selector, const Film& film) {
     const Buffer from = device.allocate(bytes), to = device.allocate(bytes);
     device.fill_zero(from);
     std::vector<double> speeds;
-    double before = 0;
     for (unsigned i = 0; i <= rounds; ++i) {
         device.run(program.kernel("copy"), Arguments().add(from).add(to).add(std::uint32_t(items)), items);
         device.finish();
-        const double now = device.times()["copy"].seconds;
-        if (i > 0) speeds.push_back(2.0 * double(bytes) / (now - before));
-        before = now;
+        const DeviceCommand& copied = device.commands().back();
+        if (i > 0) speeds.push_back(2.0 * double(bytes) / (1e-9 * double(copied.end - copied.start)));
     }
     std::sort(speeds.begin(), speeds.end());
     return speeds[speeds.size() / 2];

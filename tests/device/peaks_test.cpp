@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bench/device_peaks.h"
 #include "device_fixture.h"
+#include "profile/device_peaks.h"
 
 using namespace triad;
 

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -67,6 +68,36 @@ TEST(CaptureCommand, replays_bit_for_bit_with_every_driver) {
     double share = 0;
     for (const Json& row : stages.at("rows")) share += row.at("share").get<double>();
     EXPECT_NEAR(share, 1, 1e-9);
+}
+
+TEST(CaptureCommand, a_replay_reports_what_a_profile_does_and_what_became_slower) {
+    const TemporaryFolder folder;
+    const std::string file = path_of(folder, "a.capture"), json = path_of(folder, "a.json"),
+                      page = path_of(folder, "page");
+    ASSERT_EQ(run_triad("capture " + small_built_in + " --driver wave-stages -o " + file).exit, 0);
+    const Outcome replayed = run_replay(file + " --repeat 2 --json " + json + " -o " + page);
+    ASSERT_EQ(replayed.exit, 0) << replayed.output;
+    EXPECT_NE(replayed.output.find("of the roof"), std::string::npos) << replayed.output;
+    Json report = report_of(json);
+    const Json row = row_of(report, "wave_intersect_edges");
+    EXPECT_GT(row.at("roofline_share"), 0);
+    EXPECT_LE(row.at("roofline_share"), 1);
+    EXPECT_EQ(row.at("ms_of_runs").size(), 2u);
+    EXPECT_LE(row.at("units_per_item"), 1.01);  // counted on other samples
+    EXPECT_EQ(report.at("devices")[0].at("path_driver"), "wave-stages");
+    const std::string html = bytes_of(page + "/index.html");
+    for (const char* part :
+         {"wave_intersect_edges", "data:image/svg+xml", "How long the lists are", "</html>"})
+        EXPECT_NE(html.find(part), std::string::npos) << part;
+    for (const char* outside : {"src=\"http", "href=\"http", "url(http", "<script"})
+        EXPECT_EQ(html.find(outside), std::string::npos) << outside;
+    for (Json& each : report["rows"])
+        for (Json& ms : each["ms_of_runs"]) ms = 0.1 * ms.get<double>();
+    std::ofstream(json) << report;
+    EXPECT_EQ(run_replay(file + " --repeat 2 --against " + json).exit, 7);
+    EXPECT_EQ(run_replay(file + " --repeat 2 --single-kernel wave_end_paths --against " + json).exit, 1);
+    EXPECT_EQ(run_replay(file + " --repeat 0 --against " + json).exit, 1);
+    EXPECT_EQ(run_replay(file + " --json " + file).exit, 1);
 }
 
 TEST(CaptureCommand, replays_photons_and_textured_environments_bit_for_bit) {

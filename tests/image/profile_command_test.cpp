@@ -106,6 +106,16 @@ TEST(ProfileCommand, every_driver_of_paths_counts_the_same_rays_and_its_shares_a
         EXPECT_GT(double(queue["busy_s"]), 0);
         EXPECT_LE(double(queue["host_s"]), double(queue["waiting_s"]));
         rays.push_back(device["rays"]);
+        double on_edges = 0, to_lights = 0;
+        for (const json& edge : device["edges"]) {
+            on_edges += double(edge["rays_per_sample"]), to_lights += double(edge["shadow_rays_per_sample"]);
+            EXPECT_LE(double(edge["hits_per_sample"]), double(edge["rays_per_sample"]));
+            EXPECT_LE(double(edge["shadow_rays_per_sample"]), double(edge["hits_per_sample"]));
+        }
+        const json& r = device["rays"];
+        EXPECT_NEAR(on_edges * 64 * 48 * 4, double(r["camera"]["rays"]) + double(r["bounce"]["rays"]), 1);
+        EXPECT_NEAR(to_lights * 64 * 48 * 4, double(r["shadow"]["rays"]), 1);
+        EXPECT_EQ(double(device["edges"][0]["rays_per_sample"]), 1);
     }
     EXPECT_EQ(rays[0], rays[1]);
     EXPECT_EQ(rays[0], rays[2]);

@@ -49,6 +49,7 @@ Capture small_capture() {
                     {What::half_sums, 1, 0, 6, content(6 * 3 * 8, 2)},
                     {What::samples, 2, 0, 6, content(6 * 4, 4)},
                     {What::counters, 3, 0, 6, content(2 * COUNTERS * 4, 3)}};
+    capture.counted = R"({"samples":4})";
     return capture;
 }
 
@@ -89,6 +90,7 @@ TEST(CaptureFile, comes_back_as_it_was) {
     EXPECT_EQ(back.work.memories[0].content, nullptr);
     EXPECT_EQ(std::get<Recording::Write>(back.work.commands[1]).offset, 90u);
     EXPECT_EQ(*back.film[2].content, *content(6 * 4, 4));
+    EXPECT_EQ(back.counted, R"({"samples":4})");
 }
 
 TEST(CaptureFile, equal_contents_are_kept_once) {

@@ -1,5 +1,5 @@
 // Numbers from repeated measurements: closed forms, and intervals that hold what they promise.
-#include "bench/repetitions.h"
+#include "metric/repetitions.h"
 
 #include <gtest/gtest.h>
 

@@ -14,8 +14,10 @@
 #include "capture/capture.h"
 #include "device/device.h"
 #include "kernels/types.h"
+#include "profile/profile.h"
+#include "profile/profile_report.h"
+#include "profile/work_json.h"
 #include "replay/include_tree.h"
-#include "replay/kernel_rows.h"
 #include "replay/verify.h"
 #include "sentence_of.h"
 
@@ -106,19 +108,63 @@ TEST(ReplayVerify, lost_samples_and_other_numbers_of_rays_do_not_agree) {
     EXPECT_NE(why_not(rays).find("number of rays"), std::string::npos) << why_not(rays);
 }
 
-TEST(KernelRows, have_medians_shares_and_rates) {
-    const std::vector<LaunchRow> rows = kernel_rows(
-        {{"a", 1000}, {"b", 10}}, {{"a", {0.001, 0.003, 0.002, 0.002}}, {"b", {0.004, 0.008}}}, 2);
-    ASSERT_EQ(rows.size(), 2u);
-    EXPECT_EQ(rows[0].kernel, "b");  // the longest first
-    EXPECT_EQ(rows[0].launches, 1u);
-    EXPECT_NEAR(rows[0].ms_median, 6, 1e-9);
-    EXPECT_NEAR(rows[0].ms_p95, 7.8, 1e-9);
-    EXPECT_EQ(rows[1].launches, 2u);
-    EXPECT_NEAR(rows[1].ms_median, 2, 1e-9);
-    EXPECT_NEAR(rows[1].ms_total, 4, 1e-9);
-    EXPECT_NEAR(rows[1].share, 0.4, 1e-9);
-    EXPECT_NEAR(rows[1].items_per_s, 250000, 1e-6);
+/// A launch or a transfer of so many milliseconds, from `start` on.
+DeviceCommand command(const char* name, double start, double ms, std::size_t items) {
+    DeviceCommand c;
+    c.kind = items > 0 ? CommandKind::kernel : CommandKind::write;
+    c.name = name, c.items = items;
+    c.queued = c.start = std::int64_t(1e6 * start), c.end = std::int64_t(1e6 * (start + ms));
+    return c;
+}
+
+TEST(ProfileRows, have_medians_shares_rates_and_what_the_queue_waited) {
+    Profile p;
+    add_commands(p,
+                 {{command("a", 0, 1, 500), command("a", 1, 3, 500), command("b", 5, 4, 10)},
+                  {command("a", 0, 2, 500), command("a", 2, 2, 500), command("b", 7, 8, 10)}},
+                 {});
+    ASSERT_EQ(p.rows.size(), 2u);
+    EXPECT_EQ(p.runs, 2u);
+    EXPECT_EQ(p.rows[0].kernel, "b");  // the longest first
+    EXPECT_NEAR(p.rows[0].ms_median, 6, 1e-9);
+    EXPECT_NEAR(p.rows[0].ms_p95, 8, 1e-9);
+    EXPECT_EQ(p.rows[1].launches, 4u);
+    EXPECT_NEAR(p.rows[1].ms_median, 2, 1e-9);
+    EXPECT_NEAR(p.rows[1].ms.value, 4, 1e-9);
+    EXPECT_NEAR(p.rows[1].share, 0.4, 1e-9);
+    EXPECT_NEAR(p.rows[1].items_per_s, 250000, 1e-6);
+    EXPECT_NEAR(p.busy, 0.012, 1e-12);
+    EXPECT_NEAR(p.waiting, 0.003, 1e-12);
+}
+
+TEST(ProfileRows, know_how_many_items_had_work) {
+    Profile p;
+    p.format = "bvh8", p.samples = 100;
+    add_commands(p, {{command("wave_intersect_edges", 0, 1, 1000)}}, {});
+    WorkCounts counts;
+    counts.width = 10, counts.height = 10, counts.samples = 1;
+    counts.rays[WORK_CAMERA].rays = 100, counts.rays[WORK_BOUNCE].rays = 150;
+    counts.edges[0] = {100, 80, 60}, counts.edges[1] = {150, 0, 0};
+    add_costs(p, counts, {.flops = 1e9, .memory = {{1 << 18, 1e9, 1e9, 1e8}}, .seconds = 0});
+    EXPECT_NEAR(p.rows[0].units_per_item(p.runs), 0.25, 1e-12);
+    const std::vector<EdgeLine> lines = edge_lines(counts);
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_NEAR(lines[0].hits, 0.8, 1e-12);
+    EXPECT_NEAR(lines[1].rays, 1.5, 1e-12);
+}
+
+TEST(WorkJson, comes_back_as_it_was_and_damage_is_told) {
+    WorkCounts counts;
+    counts.width = 3, counts.height = 2, counts.samples = 4, counts.vertices = 1ull << 40;
+    counts.rays[WORK_SHADOW] = {1, 2, 3, 4, 5, 6};
+    counts.edges[WORK_EDGES - 1] = {7, 8, 9};
+    const std::string text = text_of(counts);
+    EXPECT_EQ(text_of(work_counts_of(text)), text);
+    EXPECT_EQ(work_counts_of(text).rays[WORK_SHADOW].deepest, 6u);
+    for (std::size_t i = 0; i < text.size(); ++i)
+        sentence_of(Exit::scene, [&] { work_counts_of(text.substr(0, i)); });
+    for (const char* other : {"{}", "[]", "3", "null", "{\"width\": \"x\"}"})
+        sentence_of(Exit::scene, [&] { work_counts_of(other); });
 }
 
 TEST(IncludeTree, is_what_programs_were_flattened_from) {

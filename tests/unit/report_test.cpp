@@ -7,12 +7,12 @@
 #include "base/child_process.h"
 #include "base/files.h"
 #include "io/io.h"
+#include "page/gnuplot.h"
+#include "page/html.h"
 #include "report/error_pictures.h"
 #include "report/error_plots.h"
 #include "report/error_report.h"
-#include "report/gnuplot.h"
 #include "report/error_words.h"
-#include "report/html.h"
 
 namespace triad {
 namespace {

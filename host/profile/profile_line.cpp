@@ -1,11 +1,11 @@
-#include "report/profile_line.h"
+#include "profile/profile_line.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
 
 #include "base/text.h"
-#include "report/html.h"
+#include "page/html.h"
 
 namespace triad {
 namespace {

@@ -1,7 +1,7 @@
 // The time line of a profile for Perfetto.
 #include <algorithm>
 
-#include "report/profile_report.h"
+#include "profile/profile_report.h"
 
 namespace triad {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/spans.h"
-#include "bench/profile.h"
+#include "profile/profile.h"
 
 namespace triad {
 

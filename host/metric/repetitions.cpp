@@ -1,4 +1,4 @@
-#include "bench/repetitions.h"
+#include "metric/repetitions.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "bench/device_peaks.h"
+#include "profile/device_peaks.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "report/aligned.h"
+#include "page/aligned.h"
 
 #include <algorithm>
 #include <cstddef>

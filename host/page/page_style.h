@@ -1,9 +1,9 @@
 #pragma once
-/// The style sheet of the error report: readable on a phone and in the dark, without anything from outside.
+/// The style sheet of all pages: readable on a phone and in the dark, without anything from outside.
 
 namespace triad {
 
-inline constexpr char error_report_style[] = R"css(
+inline constexpr char page_style[] = R"css(
 :root { color-scheme: light dark; --ink: #1b1f24; --soft: #57606a; --page: #ffffff; --card: #f5f6f8; --line: #d5d9de;
   --good: #00684b; --bad: #a83a00; }
 @media (prefers-color-scheme: dark) {

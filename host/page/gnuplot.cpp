@@ -1,4 +1,4 @@
-#include "report/gnuplot.h"
+#include "page/gnuplot.h"
 
 #include <iterator>
 

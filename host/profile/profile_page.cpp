@@ -1,4 +1,4 @@
-#include "report/profile_page.h"
+#include "profile/profile_page.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,10 @@
 #include "base/machine.h"
 #include "base/text.h"
 #include "kernels/types.h"
-#include "report/error_pictures.h"
-#include "report/gnuplot.h"
-#include "report/html.h"
-#include "report/profile_line.h"
-#include "report/report.h"
+#include "page/gnuplot.h"
+#include "page/html.h"
+#include "profile/profile_line.h"
+#include "profile/profile_report.h"
 
 namespace triad {
 namespace {
@@ -25,8 +24,6 @@ constexpr const char* style = R"css(
 svg text { fill: var(--ink); font: 12px system-ui, sans-serif; }
 svg .k0 { fill: #0072b2; } svg .k1 { fill: #d55e00; } svg .k2 { fill: #009e73; } svg .k3 { fill: #cc79a7; }
 svg .k4 { fill: #e69f00; } svg .k5 { fill: #56b4e9; } svg .k6 { fill: #888; }
-.maps { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(22rem, 100%), 1fr)); gap: 1rem; }
-.maps img { image-rendering: pixelated; }
 )css";
 
 std::string number_or_dash(double v, const char* pattern) { return v > 0 ? format(pattern, v) : "-"; }
@@ -72,36 +69,16 @@ std::string rays_html(const WorkCounts& c) {
     return html + "</tbody></table>\n";
 }
 
-std::string legend(const ColourScale& scale, const std::string& low, const std::string& high) {
-    return "<div class=\"scale\"><i style=\"background:" + css_gradient(scale) + "\"></i><span>" +
-           html_escape(low) + "</span><span>" + html_escape(high) + "</span></div>";
-}
-
-std::string map_html(const std::vector<float>& values, unsigned width, unsigned height,
-                     const std::string& words, const char* pattern) {
-    std::vector<float> sorted = values;
-    std::sort(sorted.begin(), sorted.end());
-    const double high = std::max<double>(1e-12, sorted[std::size_t(0.995 * double(sorted.size() - 1))]);
-    const ColourScale scale{0, high, false};
-    return "<figure><img alt=\"" + html_escape(words) + "\" src=\"" +
-           data_uri("image/png", false_colour_png(values, width, height, scale)) + "\"><figcaption>" +
-           html_escape(words) + "</figcaption>" + legend(scale, "0", format(pattern, high)) + "</figure>\n";
-}
-
-std::string maps_html(const Profile& p) {
-    const WorkCounts& c = p.counts;
-    std::vector<float> visits(c.visits.size()), seconds(c.visits.size());
-    const unsigned across = (c.width + FILM_TILE - 1) / FILM_TILE;
-    for (std::size_t i = 0; i < visits.size(); ++i) {
-        const std::size_t x = i % c.width, y = i / c.width, tile = y / FILM_TILE * across + x / FILM_TILE;
-        visits[i] = float(double(c.visits[i]) / c.samples);
-        seconds[i] = float(1e6 * p.tile_seconds[tile] / c.samples);
-    }
-    return "<h3>Where in the picture</h3>\n<div class=\"maps\">\n" +
-           map_html(visits, c.width, c.height, "Nodes and leaves that the paths of a sample visit", "%.0f") +
-           map_html(seconds, c.width, c.height, "Microseconds of a sample of each tile, launched alone",
-                    "%.3g us") +
-           "</div>\n";
+std::string edges_html(const WorkCounts& c) {
+    std::string html =
+        "<table><thead><tr><th>Edge</th><th>Rays per sample</th><th>That hit</th><th>Shadow "
+        "rays</th></tr></thead><tbody>\n";
+    for (const EdgeLine& e : edge_lines(c))
+        html += "<tr><th data-label=\"Edge\">" + html_escape(e.name) + "</th>" +
+                number_cell("Rays per sample", format("%.4f", e.rays)) +
+                number_cell("That hit", format("%.4f", e.hits)) +
+                number_cell("Shadow rays", format("%.4f", e.shadow_rays)) + "</tr>\n";
+    return html + "</tbody></table>\n";
 }
 
 std::string peaks_html(const Profile& p) {
@@ -140,7 +117,8 @@ std::string rest_html(const Profile& p) {
     return html + "</dl>\n";
 }
 
-std::string device_html(const Profile& p, const std::vector<HostSpan>& spans, std::string& missing) {
+std::string device_html(const Profile& p, const std::vector<HostSpan>& spans, const std::string& maps,
+                        std::string& missing) {
     const Estimate seconds = median_estimate(p.seconds_of_runs);
     std::string html = "<h2>" + html_escape(p.device.name) + "</h2>\n<p>" + html_escape(p.device.platform) +
                        ", driver " + html_escape(p.device.driver) + "; paths by " +
@@ -157,8 +135,10 @@ std::string device_html(const Profile& p, const std::vector<HostSpan>& spans, st
             "\"><figcaption>Operations of boxes and triangles per byte that is touched, and how fast. Lines "
             "are what the device does at most, with data in its caches and in "
             "memory.</figcaption></figure></div>\n";
-    return html + profile_line(p, spans) + "<h3>What rays take</h3>\n" + rays_html(p.counts) + maps_html(p) +
-           "<h3>The roof, measured here</h3>\n" +
+    html += profile_line(p, spans);
+    if (p.counts.samples == 0) return html + rest_html(p);
+    return html + "<h3>What rays take</h3>\n" + rays_html(p.counts) + "<h3>How long the lists are</h3>\n" +
+           edges_html(p.counts) + maps + "<h3>The roof, measured here</h3>\n" +
            format("<p>%.1f GFLOP/s of fused multiply-adds.</p>\n", 1e-9 * p.peaks.flops) + peaks_html(p) +
            rest_html(p);
 }
@@ -198,12 +178,13 @@ std::string roofline_script(const Profile& p) {
 }
 
 std::string profile_page(const std::vector<Profile>& profiles, const std::vector<HostSpan>& spans,
-                         const std::string& command) {
+                         const std::string& command, const ProfileMaps& maps) {
     std::string missing, devices;
-    for (const Profile& p : profiles) devices += device_html(p, spans, missing);
+    for (const Profile& p : profiles)
+        devices += device_html(p, spans, maps.html ? maps.html(p) : "", missing);
     if (!missing.empty()) warn(missing + " The rest of the page is complete.");
     return html_page(
-        "Triad profile", style,
+        "Triad profile", style + maps.css,
         std::string("<h1>Where the time goes</h1>\n<dl><dt>Command</dt><dd><code>") + html_escape(command) +
             "</code></dd><dt>Date</dt><dd>" + date_words() + "</dd><dt>Machine</dt><dd>" +
             html_escape(machine_words()) + "</dd><dt>Triad</dt><dd>" TRIAD_VERSION "</dd></dl>\n" +

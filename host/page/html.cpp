@@ -1,6 +1,8 @@
-#include "report/html.h"
+#include "page/html.h"
 
-#include "report/error_report_style.h"
+#include <ctime>
+
+#include "page/page_style.h"
 
 namespace triad {
 namespace {
@@ -51,6 +53,15 @@ std::string html_escape(std::string_view text) {
     return out;
 }
 
+std::string date_words() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    ::gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &utc);
+    return text;
+}
+
 std::string base64(std::span<const std::uint8_t> bytes) {
     constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string out;
@@ -73,7 +84,7 @@ std::string html_page(std::string_view title, std::string_view css, std::string_
     std::string html =
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\">\n<title>" +
-        html_escape(title) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" + error_report_style;
+        html_escape(title) + "</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>" + page_style;
     return html.append(css).append("</style></head><body>\n").append(body) + "</body></html>\n";
 }
 

@@ -11,13 +11,16 @@ namespace triad {
 /// not UTF-8 become U+FFFD, so that no name in a file can break the page.
 std::string html_escape(std::string_view text);
 
+/// "2026-11-22 05:10 UTC".
+std::string date_words();
+
 /// RFC 4648, with padding.
 std::string base64(std::span<const std::uint8_t> bytes);
 
 /// "data:TYPE;base64,..."
 std::string data_uri(std::string_view media_type, std::span<const std::uint8_t> bytes);
 
-/// A whole page with the style of all reports (report/error_report_style.h), and what `css` adds.
+/// A whole page with the style of all reports (page/page_style.h), and what `css` adds.
 std::string html_page(std::string_view title, std::string_view css, std::string_view body);
 
 /// A cell of a table, which on a narrow screen stands below its label: a number, on one line where there is

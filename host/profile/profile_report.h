@@ -3,13 +3,25 @@
 #include <string>
 #include <vector>
 
-#include "bench/profile.h"
-#include "report/report.h"
+#include "profile/profile.h"
+#include "device/report.h"
 
 namespace triad {
 
 /// Tables for a terminal: kernels, rays, and what else took time; of several devices also side by side.
 std::string table_of(const std::vector<Profile>& profiles);
+
+/// The first of them.
+std::string kernels_table(const Profile& profile);
+
+/// How many rays follow an edge of the paths, counted from the camera's: how long the lists of a wave would
+/// be, per sample.
+struct EdgeLine {
+    std::string name;  ///< "1", ..., "16 and later"
+    double rays = 0, hits = 0, shadow_rays = 0;
+};
+/// Up to the last that has any.
+std::vector<EdgeLine> edge_lines(const WorkCounts& counts);
 
 /// The rows of --json: kernels by falling share, device after device.
 Json rows_of(const std::vector<Profile>& profiles);
@@ -28,10 +40,13 @@ struct KernelChange {
     bool is_slower = false;            ///< beyond noise, and one that matters
 };
 
-/// Those that both have. `before`: what --json wrote. Throws Error(scene) when it is no such report,
-/// Error(usage) when it is of other work.
-std::vector<KernelChange> changes_since(const Json& before, const std::vector<Profile>& profiles,
-                                        const Json& workload);
+/// Those that both have. `before`: what --json of `command` ("profile", "replay") wrote. Throws Error(scene)
+/// when it is no such report, Error(usage) when it is of other work.
+std::vector<KernelChange> changes_since(const Json& before, const std::string& command,
+                                        const std::vector<Profile>& profiles, const Json& workload);
+/// Throws Error(scene) when it is no JSON.
+Json earlier_report(const std::string& path);
 std::string table_of(const std::vector<KernelChange>& changes);
+bool any_slower(const std::vector<KernelChange>& changes);
 
 }  // namespace triad

@@ -1,11 +1,13 @@
-#include "report/profile_report.h"
+#include "profile/profile_report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "base/error.h"
+#include "base/files.h"
 #include "base/text.h"
-#include "report/aligned.h"
+#include "page/aligned.h"
 
 namespace triad {
 namespace {
@@ -23,17 +25,9 @@ std::string number_text(double v, const char* pattern) { return v > 0 ? format(p
 
 double per_run(const Profile& p, std::size_t n) { return double(n) / p.runs; }
 
-std::string kernels_table(const Profile& p) {
-    Lines lines{{"kernel", "launches", "items", "median ms", "p95 ms", "ms", "share", "M items/s", "GB/s",
-                 "GFLOP/s", "of the roof", "which is"}};
-    for (const KernelRow& r : p.rows)
-        lines.push_back(
-            {r.kernel, format("%.0f", per_run(p, r.launches)), number_text(per_run(p, r.items), "%.0f"),
-             format("%.3f", r.ms_median), format("%.3f", r.ms_p95), format("%.1f", r.ms.value),
-             format("%.1f %%", 100 * r.share), number_text(1e-6 * r.items_per_s, "%.2f"),
-             number_text(1e-9 * r.bytes_per_s(), "%.2f"), number_text(1e-9 * r.flops_per_s(), "%.2f"),
-             r.floor ? format("%.0f %%", 100 * *r.roofline_share()) : "-", r.floor ? r.floor->by : "-"});
-    return aligned(lines, 1);
+/// Of a run: whole where all runs have as many.
+Json count(const Profile& p, std::size_t n) {
+    return n % p.runs == 0 ? Json(n / p.runs) : Json(per_run(p, n));
 }
 
 std::string rays_table(const WorkCounts& c) {
@@ -50,12 +44,27 @@ std::string rays_table(const WorkCounts& c) {
     return aligned(lines, 1);
 }
 
+std::string edges_table(const WorkCounts& c) {
+    Lines lines{{"edge", "rays per sample", "that hit", "shadow rays"}};
+    for (const EdgeLine& e : edge_lines(c))
+        lines.push_back(
+            {e.name, format("%.4f", e.rays), format("%.4f", e.hits), format("%.4f", e.shadow_rays)});
+    return aligned(lines, 1);
+}
+
 std::string peaks_table(const DevicePeaks& peaks) {
     Lines lines{{"of data in", "read GB/s", "copy GB/s", "M gathers/s"}};
     for (const MemoryPeak& m : peaks.memory)
         lines.push_back({bytes_text(m.bytes), format("%.1f", 1e-9 * m.read), format("%.1f", 1e-9 * m.copy),
                          format("%.1f", 1e-6 * m.gathers)});
     return aligned(lines, 1);
+}
+
+std::string work_text(const Profile& p) {
+    return "\n" + rays_table(p.counts) + "\n" + edges_table(p.counts) +
+           "Visits and edges are counted by an instrumented program on other samples; bytes, operations (of "
+           "boxes and triangles alone) and dependent reads follow by formula.\n" +
+           format("\nThe roof, measured here: %.1f GFLOP/s\n", 1e-9 * p.peaks.flops) + peaks_table(p.peaks);
 }
 
 std::string one_device(const Profile& p) {
@@ -69,11 +78,7 @@ std::string one_device(const Profile& p) {
     text += format(
         "\nThe queue is at work for %.3f s and waits %.3f s between commands, %.3f s of it for the host.\n",
         p.busy, p.waiting, p.host_between);
-    text += "\n" + rays_table(p.counts);
-    text +=
-        "Visits are counted by an instrumented program on other samples; bytes, operations (of boxes and "
-        "triangles alone) and dependent reads follow by formula.\n";
-    text += format("\nThe roof, measured here: %.1f GFLOP/s\n", 1e-9 * p.peaks.flops) + peaks_table(p.peaks);
+    if (p.counts.samples > 0) text += work_text(p);
     std::uint64_t all = 0;
     std::string memory;
     for (const auto& [name, bytes] : p.memory) {
@@ -119,6 +124,33 @@ std::vector<double> logarithms(const std::vector<double>& values) {
 
 }  // namespace
 
+std::string kernels_table(const Profile& p) {
+    Lines lines{{"kernel", "launches", "items", "median ms", "p95 ms", "ms", "share", "M items/s", "GB/s",
+                 "GFLOP/s", "units/item", "of the roof", "which is"}};
+    for (const KernelRow& r : p.rows)
+        lines.push_back(
+            {r.kernel, format("%.0f", per_run(p, r.launches)), number_text(per_run(p, r.items), "%.0f"),
+             format("%.3f", r.ms_median), format("%.3f", r.ms_p95), format("%.1f", r.ms.value),
+             format("%.1f %%", 100 * r.share), number_text(1e-6 * r.items_per_s, "%.2f"),
+             number_text(1e-9 * r.bytes_per_s(), "%.2f"), number_text(1e-9 * r.flops_per_s(), "%.2f"),
+             number_text(r.units_per_item(p.runs), "%.3g"),
+             r.floor ? format("%.0f %%", 100 * *r.roofline_share()) : "-", r.floor ? r.floor->by : "-"});
+    return aligned(lines, 1);
+}
+
+std::vector<EdgeLine> edge_lines(const WorkCounts& c) {
+    const double samples = double(c.width) * c.height * c.samples;
+    std::vector<EdgeLine> lines;
+    for (std::size_t i = 0; i < c.edges.size(); ++i) {
+        const EdgeCounts& e = c.edges[i];
+        if (e.rays == 0) break;
+        lines.push_back(
+            {i + 1 == c.edges.size() ? std::to_string(i + 1) + " and later" : std::to_string(i + 1),
+             double(e.rays) / samples, double(e.hits) / samples, double(e.shadow_rays) / samples});
+    }
+    return lines;
+}
+
 std::string table_of(const std::vector<Profile>& profiles) {
     std::string text;
     for (const Profile& p : profiles) text += (text.empty() ? "" : "\n\n") + one_device(p);
@@ -134,8 +166,8 @@ Json rows_of(const std::vector<Profile>& profiles) {
                      {"device", p.device.name},
                      {"driver", p.device.driver},
                      {"program", r.program},
-                     {"launches", r.launches},
-                     {"items", r.items},
+                     {"launches", count(p, r.launches)},
+                     {"items", count(p, r.items)},
                      {"ms_median", r.ms_median},
                      {"ms_p95", r.ms_p95},
                      {"ms_of_runs", r.ms_of_runs},
@@ -148,6 +180,7 @@ Json rows_of(const std::vector<Profile>& profiles) {
             if (r.cost)
                 row.update({{"unit", r.cost->unit},
                             {"units", r.cost->units},
+                            {"units_per_item", number(r.units_per_item(p.runs))},
                             {"bytes_per_unit", r.cost->bytes / r.cost->units},
                             {"flops_per_unit", r.cost->flops / r.cost->units},
                             {"gathers_per_unit", r.cost->gathers / r.cost->units},
@@ -166,7 +199,8 @@ Json rows_of(const std::vector<Profile>& profiles) {
 Json devices_of(const std::vector<Profile>& profiles) {
     Json devices = Json::array();
     for (const Profile& p : profiles) {
-        Json rays = Json::object(), memory = Json::object(), compiled = Json::array(), peaks = Json::array();
+        Json rays = Json::object(), memory = Json::object(), compiled = Json::array(), peaks = Json::array(),
+             edges = Json::array();
         for (unsigned kind = 0; kind < WORK_KINDS; ++kind) {
             const RayCounts& r = p.counts.rays[kind];
             const double n = double(std::max<std::uint64_t>(1, r.rays));
@@ -177,6 +211,11 @@ Json devices_of(const std::vector<Profile>& profiles) {
                                     {"stack_per_ray", double(r.deepest_sum) / n},
                                     {"deepest", r.deepest}};
         }
+        for (const EdgeLine& e : edge_lines(p.counts))
+            edges.push_back({{"edge", e.name},
+                             {"rays_per_sample", e.rays},
+                             {"hits_per_sample", e.hits},
+                             {"shadow_rays_per_sample", e.shadow_rays}});
         for (const auto& [name, bytes] : p.memory) memory[name] = bytes;
         for (const Compilation& c : p.compilations)
             compiled.push_back({{"program", c.program}, {"seconds", c.seconds}});
@@ -196,6 +235,7 @@ Json devices_of(const std::vector<Profile>& profiles) {
              {"counted_samples_per_pixel", p.counts.samples},
              {"vertices", p.counts.vertices},
              {"rays", rays},
+             {"edges", edges},
              {"peaks", {{"gflops", 1e-9 * p.peaks.flops}, {"memory", peaks}}},
              {"memory_bytes", memory},
              {"compilations", compiled}});
@@ -203,10 +243,18 @@ Json devices_of(const std::vector<Profile>& profiles) {
     return devices;
 }
 
-std::vector<KernelChange> changes_since(const Json& before, const std::vector<Profile>& profiles,
-                                        const Json& workload) {
-    if (before.value("schema", "") != "triad.profile/1" || !before.contains("rows"))
-        throw Error(Exit::scene, "--against: that is no report of triad profile --json.");
+Json earlier_report(const std::string& path) {
+    const std::vector<std::uint8_t> file = read_file(path, 1u << 28);
+    Json json = Json::parse(file.begin(), file.end(), nullptr, false);
+    if (json.is_discarded()) throw Error(Exit::scene, "--against " + path + ": that is no JSON.");
+    return json;
+}
+
+std::vector<KernelChange> changes_since(const Json& before, const std::string& command,
+                                        const std::vector<Profile>& profiles, const Json& workload) {
+    if (!before.is_object() || before.value("schema", "") != "triad." + command + "/1" ||
+        !before.contains("rows"))
+        throw Error(Exit::scene, "--against: that is no --json of this command.");
     if (before.value("workload", Json()) != workload)
         throw Error(Exit::usage,
                     "--against: that report is of other work: " + before.value("workload", Json()).dump() +
@@ -232,7 +280,7 @@ std::vector<KernelChange> changes_since(const Json& before, const std::vector<Pr
     if (changes.empty())
         throw Error(Exit::usage,
                     "--against: that report has no kernel of this device and driver, or of a "
-                    "single run; both need --runs 2 or more.");
+                    "single run; both need two or more.");
     return changes;
 }
 
@@ -243,6 +291,10 @@ std::string table_of(const std::vector<KernelChange>& changes) {
                          format("%.3f", c.ratio.value), format("%.3f to %.3f", c.ratio.low, c.ratio.high),
                          c.is_slower ? "slower" : ""});
     return aligned(lines, 2);
+}
+
+bool any_slower(const std::vector<KernelChange>& changes) {
+    return std::any_of(changes.begin(), changes.end(), [](const KernelChange& c) { return c.is_slower; });
 }
 
 }  // namespace triad

@@ -1,4 +1,4 @@
-#include "bench/profile.h"
+#include "profile/profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include "trace/node_format.h"
-#include "trace/path_driver.h"
 
 namespace triad {
 namespace {
@@ -95,41 +94,24 @@ double KernelRow::bytes_per_s() const {
 
 double KernelRow::flops_per_s() const { return cost ? cost->flops / seconds() : 0; }
 
+double KernelRow::units_per_item(unsigned runs) const {
+    return cost && items > 0 ? cost->units * runs / double(items) : 0;
+}
+
 std::optional<double> KernelRow::roofline_share() const {
     if (!floor || !(seconds() > 0)) return {};
     return floor->seconds / seconds();
 }
 
-Profile profile_runs(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
-                     const std::function<bool(unsigned, unsigned)>& report) {
-    Device& device = renderer.device();
-    Profile p;
-    p.device = device.info();
-    p.format = name_of(format_of(device)), p.path_driver = name_of(path_driver_of(device));
-    std::vector<std::vector<DeviceCommand>> commands;
-    for (unsigned run = 0; run <= runs; ++run) {
-        renderer.restart(seed + run);
-        const std::size_t before = device.commands().size();
-        const RenderResult result = renderer.render_until(goal, [](const Progress&) { return true; });
-        renderer.film();
-        const std::vector<DeviceCommand>& all = device.commands();
-        if (run > 0) {  // the first warmed up
-            commands.emplace_back(all.begin() + std::ptrdiff_t(before), all.end());
-            p.seconds_of_runs.push_back(result.seconds);
-            p.samples = double(renderer.film().sample_numbers().total);
-        }
-        if (!report(run, runs)) break;
-    }
-    p.runs = unsigned(commands.size());
-    if (p.runs == 0) throw Error(Exit::interrupted, "The profile was stopped before its first run ended.");
-    p.commands = commands.back();
-    p.memory = renderer.device_memory();
-    p.compilations = device.compilations();
+void add_commands(Profile& p, const std::vector<std::vector<DeviceCommand>>& runs,
+                  const std::vector<KernelFacts>& facts) {
+    p.runs = unsigned(runs.size());
+    p.commands = runs.back();
     p.clock_offset = clock_offset(p.commands);
     p.waiting = waiting_of(p.commands), p.host_between = host_between(p.commands);
+    p.busy = 0;
     for (const DeviceCommand& command : p.commands) p.busy += 1e-3 * milliseconds(command);
-    p.rows = rows_of(commands, device.kernels());
-    return p;
+    p.rows = rows_of(runs, facts);
 }
 
 void add_costs(Profile& p, const WorkCounts& counts, const DevicePeaks& peaks) {
@@ -138,16 +120,6 @@ void add_costs(Profile& p, const WorkCounts& counts, const DevicePeaks& peaks) {
         row.cost = cost_of(row.kernel, counts, *find_bvh_format(p.format), p.samples);
         if (row.cost) row.floor = floor_of(*row.cost, peaks);
     }
-}
-
-Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
-                const std::function<bool(unsigned, unsigned)>& report) {
-    Profile p = profile_runs(renderer, goal, seed, runs, report);
-    renderer.restart(seed);
-    const WorkCounts counts = renderer.count_work(counted_samples);
-    p.tile_seconds = renderer.time_tiles(counted_samples);
-    add_costs(p, counts, peaks_of(renderer.device()));
-    return p;
 }
 
 }  // namespace triad

@@ -2,16 +2,16 @@
 /// Where the time of a render goes on a device, kernel by kernel, and how far each is from what the device
 /// can do.
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/spans.h"
-#include "bench/device_peaks.h"
-#include "bench/kernel_costs.h"
-#include "bench/repetitions.h"
-#include "render/renderer.h"
+#include "metric/repetitions.h"
+#include "profile/device_peaks.h"
+#include "profile/kernel_costs.h"
+#include "trace/device_scene.h"
+#include "trace/work_counter.h"
 
 namespace triad {
 
@@ -42,6 +42,9 @@ struct KernelRow {
     /// Per second, by what its cost counts; 0 without one.
     double bytes_per_s() const;
     double flops_per_s() const;
+    /// What a work-item had to do, in the mean: of a stage of waves, the share of its slots that had work. 0
+    /// without a cost.
+    double units_per_item(unsigned runs) const;
     /// How much of what the device can do: 1 is the roof. None without a cost.
     std::optional<double> roofline_share() const;
 };
@@ -56,29 +59,20 @@ struct Profile {
     double busy = 0, waiting = 0;         ///< seconds of the queue in a run: at work; between two commands
     double host_between = 0;              ///< seconds of a run in which no command was queued or at work
     DevicePeaks peaks;
-    WorkCounts counts;
-    std::vector<double> tile_seconds;  ///< Renderer::time_tiles()
+    WorkCounts counts;                 ///< of no sample: not counted
+    std::vector<double> tile_seconds;  ///< Renderer::time_tiles(); empty: not timed
     MemoryUse memory;
     std::vector<Compilation> compilations;
     std::vector<DeviceCommand> commands;  ///< of the last run
     std::int64_t clock_offset = 0;        ///< of the host's clock from the device's, ns
 };
 
-/// Samples of each pixel whose work is counted: few, since nothing but their mean is used.
-constexpr unsigned counted_samples = 4;
-
-/// Renders the goal's samples so many times, each from an empty film and with a seed of its own, after a run
-/// that warms up with this one. The renderer's only device must have a profiling queue. report(done, all) is
-/// called after each run and returns false to stop: what there is then is the profile. Nothing is in it of
-/// work, tiles and peaks.
-Profile profile_runs(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
-                     const std::function<bool(unsigned, unsigned)>& report);
+/// What commands say: rows, and the queue's times, which are those of the last run. The device, the runs'
+/// seconds and samples, and what is counted are the caller's.
+void add_commands(Profile& profile, const std::vector<std::vector<DeviceCommand>>& runs,
+                  const std::vector<KernelFacts>& facts);
 
 /// What the kernels had to do, of work that was counted on the same picture and nodes of the same format.
 void add_costs(Profile& profile, const WorkCounts& counts, const DevicePeaks& peaks);
-
-/// Both, with work counted, tiles timed and peaks measured after the runs.
-Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
-                const std::function<bool(unsigned, unsigned)>& report);
 
 }  // namespace triad

@@ -1,4 +1,4 @@
-#include "bench/kernel_costs.h"
+#include "profile/kernel_costs.h"
 
 #include "kernels/types.h"
 

@@ -1,4 +1,4 @@
-#include "session/check_outputs.h"
+#include "base/check_outputs.h"
 
 #include <fcntl.h>
 #include <unistd.h>
