@@ -26,9 +26,11 @@ const std::map<std::string, Names> below = [] {
         names.insert(more.begin(), more.end());
         return names;
     };
-    const Names trace = with(device, {"trace"}), picture = with(trace, {"render", "display"});
+    const Names trace = with(device, {"trace"}), picture = with(trace, {"render", "display"}),
+                measured = with(trace, {"metric", "page", "profile"});
     return std::map<std::string, Names>{
         {"base", {}},
+        {"page", {"base"}},
         {"device", {"base"}},
         {"capture", {"device", "base"}},
         {"scene", {"base"}},
@@ -40,12 +42,14 @@ const std::map<std::string, Names> below = [] {
         {"render", trace},
         {"display", device},
         {"metric", {"panel", "scene", "base"}},
+        {"profile", with(trace, {"metric", "page"})},
         {"check", with(trace, {"render"})},
-        {"bench", with(picture, {"metric"})},
-        {"session", with(picture, {"capture", "check", "io"})},
-        {"report", with(picture, {"metric", "check", "bench", "io", "session"})},
-        {"cli", with(picture, {"capture", "metric", "check", "bench", "io", "session", "report"})},
-        {"replay", with(trace, {"capture", "check"})},
+        {"bench", with(measured, {"render", "display"})},
+        {"session", with(measured, {"render", "display", "capture", "check", "io"})},
+        {"report", with(measured, {"render", "display", "check", "bench", "io", "session"})},
+        {"cli",
+         with(measured, {"render", "display", "capture", "check", "bench", "io", "session", "report"})},
+        {"replay", with(measured, {"capture", "check"})},
     };
 }();
 
