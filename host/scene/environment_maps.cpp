@@ -52,11 +52,16 @@ const float* texel(const CubeMap& cube, std::size_t face, long x, long y) {
 dvec3 bilinear(const CubeMap& cube, const dvec3& direction) {
     const OnFace at = project(direction);
     const double x = 0.5 * (at.right + 1.0) * cube.size - 0.5, y = 0.5 * (at.down + 1.0) * cube.size - 0.5;
-    const double x0 = std::floor(x), y0 = std::floor(y);
+    const long x0 = long(std::floor(x)), y0 = long(std::floor(y)), n = long(cube.size);
+    const bool inside = x0 >= 0 && y0 >= 0 && x0 + 1 < n && y0 + 1 < n;
+    const float* corner = inside ? cube.faces[at.face].data() + 3 * (y0 * n + x0) : nullptr;
     dvec3 sum(0.0);
-    for (int k = 0; k < 4; ++k) {
-        const double weight = (k & 1 ? x - x0 : 1.0 - (x - x0)) * (k & 2 ? y - y0 : 1.0 - (y - y0));
-        const float* t = texel(cube, at.face, long(x0) + (k & 1), long(y0) + (k >> 1));
+    for (long k = 0; k < 4; ++k) {
+        const long right = k & 1, down = k >> 1;
+        const double ax = x - double(x0), ay = y - double(y0);
+        const double weight = (right ? ax : 1.0 - ax) * (down ? ay : 1.0 - ay);
+        const float* t =
+            inside ? corner + 3 * (down * n + right) : texel(cube, at.face, x0 + right, y0 + down);
         sum += weight * dvec3(t[0], t[1], t[2]);
     }
     return sum;
@@ -68,19 +73,24 @@ EnvironmentMap map_of(unsigned columns, unsigned n, const dquat& rotation, const
     EnvironmentMap map{columns, columns / 2, {}};
     map.rgb.resize(std::size_t(map.width) * map.height * 3);
     const dmat3 to_light = glm::transpose(glm::mat3_cast(rotation));
+    std::vector<dvec2> around(std::size_t(map.width) * n);  // the cosine and the sine of each place's angle
+    for (std::size_t i = 0; i < around.size(); ++i) {
+        const double phi = 2 * pi * ((double(i) + 0.5) / double(around.size()) - 0.5);
+        around[i] = {std::cos(phi), std::sin(phi)};
+    }
     parallel_for(map.height, 4, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row)
-            for (std::size_t column = 0; column < map.width; ++column) {
-                dvec3 sum(0.0);
-                for (unsigned k = 0; k < n * n; ++k) {
-                    const double u = (double(column) + (k % n + 0.5) / n) / map.width,
-                                 v = (double(row) + (k / n + 0.5) / n) / map.height;
-                    const double phi = 2 * pi * (u - 0.5), theta = pi * v;
-                    sum += radiance(to_light * dvec3(std::sin(theta) * std::cos(phi), std::cos(theta),
-                                                     std::sin(theta) * std::sin(phi)));
-                }
-                to_floats(map.rgb.data() + 3 * (row * map.width + column), sum / double(n * n));
+        std::vector<dvec3> sums(map.width);
+        for (std::size_t row = begin; row < end; ++row) {
+            sums.assign(map.width, dvec3(0.0));
+            for (unsigned k = 0; k < n; ++k) {
+                const double theta = pi * (double(row) + (k + 0.5) / n) / map.height;
+                const double sine = std::sin(theta), cosine = std::cos(theta);
+                for (std::size_t i = 0; i < around.size(); ++i)
+                    sums[i / n] += radiance(to_light * dvec3(sine * around[i].x, cosine, sine * around[i].y));
             }
+            for (std::size_t column = 0; column < map.width; ++column)
+                to_floats(map.rgb.data() + 3 * (row * map.width + column), sums[column] / double(n * n));
+        }
     });
     return map;
 }
