@@ -85,6 +85,9 @@ Exit run(const std::string& path, int scene_index, bool strict, std::optional<un
             std::printf("            %zu \"%s\", %s\n", i, scene.cameras[i].name.c_str(),
                         scene.cameras[i].orthographic ? "orthographic" : "perspective");
         std::printf("lights      %zu punctual\n", scene.lights.size());
+        if (scene.environment)
+            std::printf("environment %ux%u, the image-based light of the scene\n", scene.environment->width,
+                        scene.environment->height);
         if (!bounds.empty())
             std::printf("bounds      (%g, %g, %g) to (%g, %g, %g)\n", bounds.lo.x, bounds.lo.y, bounds.lo.z,
                         bounds.hi.x, bounds.hi.y, bounds.hi.z);
@@ -114,6 +117,8 @@ Exit run(const std::string& path, int scene_index, bool strict, std::optional<un
                 {"texture_bytes", s.texture_bytes},
                 {"cameras", cameras},
                 {"lights", scene.lights.size()},
+                {"environment",
+                 scene.environment ? Json{scene.environment->width, scene.environment->height} : Json()},
                 {"bounds", bounds.empty() ? Json()
                                           : Json{bounds.lo.x, bounds.lo.y, bounds.lo.z, bounds.hi.x,
                                                  bounds.hi.y, bounds.hi.z}},

@@ -89,6 +89,9 @@ class Checker {
             case Kind::array:
                 if (!value.is_array()) fail("is not an array");
                 if (rule_->lo > 0 && value.empty()) fail("is empty");
+                if (!(double(value.size()) >= rule_->lo && double(value.size()) <= rule_->hi))
+                    fail("has " + std::to_string(value.size()) + " elements, where " +
+                         std::to_string(int(rule_->lo)) + " must be");
                 break;
             case Kind::index: {
                 const double i = integer(value);

@@ -10,6 +10,7 @@ const char* const version_0 = "version 0 of the bitstream; else the fallback, if
 
 const GltfExtension list[] = {
     {"CESIUM_primitive_outline", Treatment::no_effect, ""},
+    {"EXT_lights_image_based", Treatment::converted, "to an environment, of its sharpest specular images"},
     {"EXT_mesh_features", Treatment::no_effect, ""},
     {"EXT_mesh_gpu_instancing", Treatment::rendered, "as instances of one mesh"},
     {"EXT_mesh_manifold", Treatment::no_effect, ""},

@@ -7,6 +7,7 @@
 #include "base/memory_limit.h"
 #include "base/parallel_for.h"
 #include "base/text.h"
+#include "io/gltf_images.h"
 #include "io/gltf_material.h"
 #include "io/gltf_specular_glossiness.h"
 #include "io/image_container.h"
@@ -19,15 +20,6 @@ constexpr std::uint64_t image_cap = std::uint64_t(1) << 30;  // bytes of an enco
 /// Of the memory that is left, images may take one of so many parts: the scene holds them, its packing does,
 /// and so does a device that is not in the host's memory; trees and film come beside.
 constexpr std::uint64_t parts_for_images = 3;
-
-std::vector<std::uint8_t> bytes_of(const ImageSource& source) {
-    std::vector<std::uint8_t> bytes;
-    if (source.path.empty())
-        bytes.assign(source.bytes.begin(), source.bytes.end());
-    else
-        bytes = triad::read_file(source.path, image_cap);
-    return bytes;
-}
 
 /// Of an image that is not decoded yet.
 struct Header {
@@ -62,6 +54,15 @@ unsigned fitting_size(const std::vector<Header>& headers) {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> bytes_of(const ImageSource& source) {
+    std::vector<std::uint8_t> bytes;
+    if (source.path.empty())
+        bytes.assign(source.bytes.begin(), source.bytes.end());
+    else
+        bytes = triad::read_file(source.path, image_cap);
+    return bytes;
+}
 
 void Materials::decode_images(std::optional<unsigned> wanted) {
     std::vector<Image>& images = scene_.images;

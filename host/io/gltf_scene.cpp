@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/gltf_animation.h"
 #include "io/gltf_extras.h"
+#include "io/gltf_image_light.h"
 #include "io/gltf_instancing.h"
 #include "io/gltf_material.h"
 #include "io/gltf_members.h"
@@ -42,6 +43,8 @@ class SceneBuilder {
             walk(scenes[std::size_t(chosen)].nodes);
         }
         materials_.decode_images(choice_.max_texture);
+        if (choice_.image_light && chosen < int(scenes.size()))
+            scene_.environment = image_light(file_, std::size_t(chosen));
         if (const std::size_t dropped = validate(scene_))
             file_.warn(std::to_string(dropped) +
                        " triangles without area or with corners that are no numbers are left out.");

@@ -22,6 +22,7 @@ struct GltfChoice {
     /// Larger images are reduced to so many texels on their longer side; 0: none is; none: all alike as far
     /// as the memory limit demands.
     std::optional<unsigned> max_texture = 0;
+    bool image_light = true;  ///< false: another environment lights the scene, its own is not decoded
 };
 
 /// What a file contained beside the scene, for `triad info` and for warnings.

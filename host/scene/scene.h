@@ -153,6 +153,7 @@ struct MeshInstance {
     std::size_t mesh = 0;
     dmat4 to_world{
         1.0};  ///< invertible; a negative determinant mirrors (the front stays the front, as glTF says)
+    bool is_drawn_strokes = false;  ///< ribbons that draw_strokes() made
 };
 
 /// KHR_lights_punctual, placed. colour includes intensity: candela (point, spot) or lux (directional).
@@ -192,6 +193,9 @@ struct Scene {
     std::vector<MeshInstance> instances;
     std::vector<PunctualLight> lights;
     std::vector<SceneCamera> cameras;
+    /// In the world, of strokes that are drawn as ribbons now: a picture is framed around these ends, since
+    /// ribbons are as wide as its view makes them.
+    std::vector<dvec3> stroke_ends;
     std::optional<EnvironmentMap> environment;
     vec3 sky{0.0f};  ///< radiance from everywhere when there is no environment map
 };

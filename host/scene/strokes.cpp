@@ -163,7 +163,18 @@ bool has_strokes(const Scene& scene) {
                        [&](const MeshInstance& i) { return has_strokes(scene.meshes[i.mesh]); });
 }
 
+std::vector<dvec3> ends_of_strokes(const Scene& scene) {
+    std::vector<dvec3> ends;
+    for (const MeshInstance& instance : scene.instances)
+        for (const Primitive& p : scene.meshes[instance.mesh].primitives)
+            for (const uvec2& stroke : p.strokes)
+                for (int end = 0; end < (stroke.x == stroke.y ? 1 : 2); ++end)
+                    ends.push_back(transform_point(instance.to_world, dvec3(p.positions[stroke[end]])));
+    return ends;
+}
+
 void draw_strokes(Scene& scene, const View& view, unsigned height, double pixels) {
+    scene.stroke_ends = ends_of_strokes(scene);
     const std::size_t placed = scene.instances.size();
     for (std::size_t i = 0; i < placed; ++i) {
         const MeshInstance instance = scene.instances[i];
@@ -174,7 +185,8 @@ void draw_strokes(Scene& scene, const View& view, unsigned height, double pixels
         for (const Primitive& p : source.primitives)
             if (!p.strokes.empty())
                 mesh.primitives.push_back(Pen(p, instance.to_world, view, height, pixels, centre).draw());
-        scene.instances.push_back({instance.name, scene.meshes.size(), glm::translate(dmat4(1.0), centre)});
+        scene.instances.push_back(
+            {instance.name, scene.meshes.size(), glm::translate(dmat4(1.0), centre), true});
         scene.meshes.push_back(std::move(mesh));
     }
     for (Mesh& mesh : scene.meshes)

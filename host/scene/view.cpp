@@ -50,12 +50,4 @@ View look_at(const dvec3& eye, const dvec3& target, double yfov, double aspect) 
     return view;
 }
 
-View frame(const Bounds& bounds, double yfov, double aspect) {
-    const double radius = std::max(bounds.radius(), 1e-12 * (1.0 + glm::length(bounds.centre())));
-    const double half = std::min(0.5 * yfov, std::atan(std::tan(0.5 * yfov) * aspect));
-    const dvec3 direction = glm::normalize(dvec3(0.5, 0.35, 1.0));
-    return look_at(bounds.centre() + direction * (1.05 * radius / std::sin(half)), bounds.centre(), yfov,
-                   aspect);
-}
-
 }  // namespace triad

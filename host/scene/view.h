@@ -30,10 +30,6 @@ View view_of(const SceneCamera& camera, double aspect);
 /// Throws Error(usage) when eye and target coincide.
 View look_at(const dvec3& eye, const dvec3& target, double yfov, double aspect);
 
-/// Frames bounds as model viewers do: from the front, slightly right and above, the bounding sphere filling
-/// the picture.
-View frame(const Bounds& bounds, double yfov, double aspect);
-
 /// The same view with another vertical angle (perspective views only).
 void set_yfov(View& view, double yfov, double aspect);
 

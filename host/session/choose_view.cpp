@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "scene/framing.h"
 
 namespace triad {
 namespace {
@@ -56,7 +57,7 @@ View choose_view(const RenderRequest& options, const Scene& scene, const SceneCa
         if (options.fov && view.orthographic) warn("--fov has no effect on an orthographic camera.");
         if (options.fov && !view.orthographic) set_yfov(view, asked_yfov, aspect);
     } else {
-        view = frame(bounds, asked_yfov, aspect);
+        view = frame(scene, asked_yfov, aspect);
     }
     if (options.aperture) view.lens_radius = *options.aperture;
     if (options.focus) view.focus_distance = *options.focus;

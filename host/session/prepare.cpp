@@ -74,7 +74,8 @@ Scene load_scene(const RenderRequest& o, GltfReport* told) {
                            .animation = o.animation,
                            .time = o.pose_time,
                            .strict = o.strict,
-                           .max_texture = o.max_texture},
+                           .max_texture = o.max_texture,
+                           .image_light = o.env_path.empty()},
                           &report);
         refuse_to_replace(o.outputs_named(), report.files);
         for (const std::string& warning : report.warnings) warn(warning);
