@@ -27,7 +27,7 @@ void samples_follow_the_pdf(Check& check) {
         {.roughness = 0.6f, .transmission = 1, .solid = 1, .inside = 1},
         {.roughness = 1, .ior = 2.2f, .transmission = 0.8f, .solid = 1},
         {.roughness = 1, .ior = 2.2f, .transmission = 1, .solid = 1, .inside = 1},
-        {.roughness = 0.6f, .coat = 0.8f, .coat_roughness = 0.5f, .coat_tilt = 0.3f},
+        {.base = {0, 0, 0}, .specular = 0, .coat = 1, .coat_roughness = 0.8f, .coat_tilt = 0.3f},
         {.specular = 0, .sheen = 1, .sheen_roughness = 0.4f},
         {.metallic = 1, .roughness = 0.5f, .anisotropy = 0.8f, .azimuth = 0.1f},
         {.metallic = 1, .roughness = 0.5f, .film = 1},
@@ -44,8 +44,11 @@ void samples_follow_the_pdf(Check& check) {
          .azimuth = 0.1f,
          .film = 0.7f,
          .through = 0.4f},
+        {.roughness = 0.6f, .coat = 0.8f, .coat_roughness = 0.5f, .coat_tilt = 0.3f},
     };
-    for (std::size_t m = few ? 2 : 0; m < materials.size(); m += few ? 3 : 1)
+    const std::size_t varnish = 12;  // alone
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+        if (few && m % 3 != 2 && m != varnish) continue;
         for (float mu : few ? std::vector{0.6f} : std::vector{1.0f, 0.6f, 0.15f}) {
             Case c = materials[m];
             c.mu = mu;
@@ -73,6 +76,7 @@ void samples_follow_the_pdf(Check& check) {
             check.also_at_most(std::abs(total - inverse), 5 * std::sqrt(0.25 / double(count)),
                                "integral of the pdf of material ", m, ", mu ", mu);
         }
+    }
 }
 
 void lambert_to_the_bit(Check& check) {
