@@ -18,6 +18,7 @@ void add_ggx(std::vector<CheckCase>& cases);
 void add_bsdf(std::vector<CheckCase>& cases);
 void add_bsdf_energy(std::vector<CheckCase>& cases);
 void add_bsdf_layers(std::vector<CheckCase>& cases);
+void add_bsdf_grazing(std::vector<CheckCase>& cases);
 void add_lights(std::vector<CheckCase>& cases);
 void add_light_samplers(std::vector<CheckCase>& cases);
 void add_light_tree(std::vector<CheckCase>& cases);

@@ -30,10 +30,26 @@ CheckResult Check::result() const {
 const std::vector<CheckCase>& function_cases() {
     static const std::vector<CheckCase> cases = [] {
         std::vector<CheckCase> all;
-        for (const auto add : {add_layout, add_maths, add_random, add_sampling, add_traversal,
-                               add_traversal_input, add_traversal_reference, add_any_bits, add_ggx, add_bsdf,
-                               add_bsdf_energy, add_bsdf_layers, add_light_samplers, add_light_tree,
-                               add_lights, add_spectral, add_light_spectra, add_film, add_photons})
+        for (const auto add : {add_layout,
+                               add_maths,
+                               add_random,
+                               add_sampling,
+                               add_traversal,
+                               add_traversal_input,
+                               add_traversal_reference,
+                               add_any_bits,
+                               add_ggx,
+                               add_bsdf,
+                               add_bsdf_energy,
+                               add_bsdf_layers,
+                               add_bsdf_grazing,
+                               add_light_samplers,
+                               add_light_tree,
+                               add_lights,
+                               add_spectral,
+                               add_light_spectra,
+                               add_film,
+                               add_photons})
             add(all);
         return all;
     }();

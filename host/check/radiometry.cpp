@@ -78,6 +78,51 @@ void square_light(Check& check) {
     expect_closed_form(check, "aside", aside, 0.106817083, 1e-5);
 }
 
+/// What a smooth varnish of index 1.5 leaves of light that comes from below (KHR_materials_clearcoat).
+double through_varnish(double cosine) { return 1 - (0.04 + 0.96 * std::pow(1 - cosine, 5)); }
+
+void lamp_below_its_varnish(Check& check) {
+    // Seen: L (1 - F). Lit by it, E below the centre is the integral of that by midpoints; both samplings of
+    // the lamp take part. With a texture half of the lamp has the varnish.
+    Material lamp = emitter(1.0f);
+    lamp.clearcoat = Clearcoat{.factor = 1.0f};
+    for (const double degrees : {0.0, 40.0, 70.0, 85.0}) {
+        const double t = degrees * pi / 180;
+        Builder b;
+        b.add(square(0, true, 4), lamp);
+        expect_closed_form(check, "seen at " + std::to_string(int(degrees)) + " degrees",
+                           measure(check, b.scene,
+                                   {.view = orthographic({0, 0, 0}, {std::sin(t), -std::cos(t), 0}, 0.05, 1),
+                                    .size = 4,
+                                    .spp = 4}),
+                           through_varnish(std::cos(t)), 3e-3);
+    }
+    constexpr int n = 256;
+    double plain = 0, varnished = 0;
+    for (int i = 0; i < n * n; ++i) {
+        const double x = (i / n + 0.5) / n - 0.5, y = (i % n + 0.5) / n - 0.5,
+                     cosine = 1 / std::sqrt(1 + x * x + y * y);
+        const double share = std::pow(cosine, 4) / (double(n) * n);
+        plain += share, varnished += share * through_varnish(cosine);
+    }
+    for (const bool textured : {false, true}) {
+        Builder b;
+        if (textured) {
+            b.scene.images.push_back({"half", 2, 1, 8, {255, 255, 255, 255, 0, 0, 0, 255}});
+            b.scene.textures.push_back({});
+            lamp.clearcoat->texture = TextureUse{};
+        }
+        b.add(square(0, true, 2.0), lambert(0.8f)).add(square(1, false), lamp);
+        expect_closed_form(check, textured ? "half a varnish" : "lit",
+                           measure(check, b.scene,
+                                   {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-3, 0.5),
+                                    .size = 4,
+                                    .spp = 4096,
+                                    .max_depth = 2}),
+                           0.8 / pi * (textured ? 0.5 * (plain + varnished) : varnished), 1e-3);
+    }
+}
+
 void sphere_light(Check& check) {
     // D2: E = pi L (R / d)^2, .196349541 for R = .5, d = 2; the inscribed polyhedron is smaller by about
     // 1e-4.
@@ -211,6 +256,7 @@ void add_radiometry(std::vector<CheckCase>& cases) {
             {"D1c", "form factor of squares with a common edge", standard, squares_with_a_common_edge},
             {"D1d", "form factor of coaxial discs", full, coaxial_discs},
             {"D2", "irradiance of a square light", quick, square_light},
+            {"D2e", "a lamp below its varnish", standard, lamp_below_its_varnish},
             {"D2b", "irradiance of a sphere light", standard, sphere_light},
             {"D2c", "point lights by the inverse square", standard, inverse_square},
             {"D2d", "range, cone and direction of lights", standard, range_cone_and_direction},

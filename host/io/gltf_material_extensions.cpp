@@ -62,7 +62,7 @@ void Materials::convert_iridescence(const Value& extension, const std::string& w
     if (film.factor == 0.0f) return;
     const double ior = number(extension, "iridescenceIor", 1.3);
     if (ior < 1.0) file_.warn(what + " has an iridescenceIor below 1, which is taken as 1.");
-    film.ior = float(std::max(ior, 1.0));
+    film.ior = float(std::clamp(ior, 1.0, 1e6));
     film.thickness_minimum = float(number(extension, "iridescenceThicknessMinimum", 100.0));
     film.thickness_maximum = float(number(extension, "iridescenceThicknessMaximum", 400.0));
     film.texture = extension_texture(extension, "iridescenceTexture", what);

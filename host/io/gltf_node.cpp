@@ -52,9 +52,15 @@ std::vector<double> Nodes::weights(std::size_t index) const {
     std::vector<double> weights = posed == pose_.end() ? std::vector<double>() : posed->second.weights;
     if (weights.empty()) weights = node.weights;
     if (weights.empty() && node.mesh >= 0) weights = file_.model.meshes[std::size_t(node.mesh)].weights;
-    for (const double w : weights)
-        if (w != 0) return weights;
-    return {};
+    bool has_some = false, has_damaged = false;
+    for (double& w : weights) {
+        if (!std::isfinite(w)) w = 0, has_damaged = true;  // weights name poses, and NaN has no order
+        has_some = has_some || w != 0;
+    }
+    if (has_damaged)
+        file_.fault(label("node", index, node.name) +
+                    " has weights of morph targets that are no finite numbers; they become 0.");
+    return has_some ? weights : std::vector<double>();
 }
 
 dmat4 Nodes::local_transform(std::size_t index) {

@@ -22,9 +22,10 @@ Skin skin_at(File& file, Nodes& nodes, int index) {
     Skin skin;
     file.charge(count * sizeof(dmat4), what);
     for (const int joint : source.joints) {
-        const dvec3 place(nodes.to_world(std::size_t(joint))[3]);
-        for (int axis = 0; axis < 3; ++axis)
-            if (!std::isfinite(place[axis]))
+        const dmat4& to_world = nodes.to_world(std::size_t(joint));
+        const dvec3 place(to_world[3]);
+        for (int k = 0; k < 12; ++k)
+            if (!std::isfinite(to_world[k / 3][k % 3]))
                 throw Error(Exit::scene,
                             what + ": " +
                                 label("node", std::size_t(joint), file.model.nodes[std::size_t(joint)].name) +
@@ -32,12 +33,22 @@ Skin skin_at(File& file, Nodes& nodes, int index) {
         skin.centre += place / double(count);
     }
     const dmat4 rebase = glm::translate(dmat4(1.0), -skin.centre);
+    std::size_t damaged = 0;
     for (std::size_t i = 0; i < count; ++i) {
         dmat4 bind(1.0);
-        for (std::size_t k = 0; k < 16 && !inverse_bind.empty(); ++k)
-            bind[int(k / 4)][int(k % 4)] = k % 4 == 3 ? double(k == 15) : double(inverse_bind[16 * i + k]);
+        bool finite = true;
+        for (std::size_t k = 0; k < 16 && !inverse_bind.empty(); ++k) {
+            const double x = k % 4 == 3 ? double(k == 15) : double(inverse_bind[16 * i + k]);
+            bind[int(k / 4)][int(k % 4)] = x;
+            finite = finite && std::isfinite(x);
+        }
+        if (!finite) bind = dmat4(1.0), ++damaged;
         skin.joints.push_back(rebase * nodes.to_world(std::size_t(source.joints[i])) * bind);
     }
+    if (damaged > 0)
+        file.fault(what + ": inverseBindMatrices (accessor " + std::to_string(source.inverseBindMatrices) +
+                   ") has " + std::to_string(damaged) + " of " + std::to_string(count) +
+                   " matrices with elements that are no finite numbers; they become the identity.");
     return skin;
 }
 

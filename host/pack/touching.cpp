@@ -7,8 +7,13 @@
 namespace triad {
 namespace {
 
-bool is_body(const Material& m) {
-    return m.thickness > 0.0f && m.transmission > 0.0f && !m.unlit && m.emission == vec3(0.0f);
+/// Bodies of one kind share a face: of two that scatter, what the second absorbs begins there. Where one that
+/// refracts meets one that only scatters, the face that is kept could lose what the other does.
+enum class Body { none, refracts, scatters };
+
+Body body_of(const Material& m) {
+    if (!is_solid(m) || m.unlit || m.emission != vec3(0.0f)) return Body::none;
+    return m.transmission > 0.0f ? Body::refracts : Body::scatters;
 }
 
 /// A triangle by its corners, whatever comes first.
@@ -33,7 +38,9 @@ struct Face {
 }  // namespace
 
 void note_touching(const Scene& scene, PackedScene& packed, std::vector<BvhTriangle>& flat) {
-    const auto of_body = [&](const dev::Geometry& g) { return is_body(scene.materials[g.material]); };
+    const auto kind = [&](const dev::Geometry& g) { return body_of(scene.materials[g.material]); };
+    const auto of_body = [&](const dev::Geometry& g) { return kind(g) != Body::none; };
+    const auto kind_at = [&](const Face& f) { return kind(packed.geometries[flat[f.index].geometry]); };
     if (std::count_if(packed.geometries.begin(), packed.geometries.end(), of_body) < 2) return;
     std::vector<Face> faces;
     for (std::size_t i = 0; i < flat.size(); ++i)
@@ -44,9 +51,9 @@ void note_touching(const Scene& scene, PackedScene& packed, std::vector<BvhTrian
     for (std::size_t i = 0, next; i < faces.size(); i = next) {
         for (next = i + 1; next < faces.size() && faces[next].corners == faces[i].corners; ++next) {
         }
-        const auto facing =
-            std::find_if(faces.begin() + std::ptrdiff_t(i), faces.begin() + std::ptrdiff_t(next),
-                         [&](const Face& f) { return f.turned != faces[i].turned; });
+        const auto facing = std::find_if(
+            faces.begin() + std::ptrdiff_t(i), faces.begin() + std::ptrdiff_t(next),
+            [&](const Face& f) { return f.turned != faces[i].turned && kind_at(f) == kind_at(faces[i]); });
         if (facing == faces.begin() + std::ptrdiff_t(next)) continue;
         BvhTriangle& kept = flat[faces[i].index];
         const std::uint32_t material = packed.geometries[flat[facing->index].geometry].material;

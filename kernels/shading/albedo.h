@@ -41,16 +41,20 @@ TRIAD_FUNCTION Vec2 albedo_glass(global const float* tables, float root_mu, floa
 
 #if TRIAD_ANISOTROPY
 /* (E, B) as albedo_ggx, of GGX with alpha roughness^2 along y and mix(alpha, 1, strength^2) along x; wo in
- * that frame. */
+ * that frame. Most of it is that of the alpha along wo, which the masking knows alone; the rest is a table.
+ */
 TRIAD_FUNCTION Vec2 albedo_anisotropic(global const float* tables, float root_mu, Vec3 wo, float roughness,
                                        float strength) {
-    const float x = fabs(wo.x), y = fabs(wo.y);
-    const float turn = x + y > 0.0f ? math_atan2(y, x) * (2.0f * MATH_INV_PI) : 0.0f;
+    const float x = fabs(wo.x), y = fabs(wo.y), along2 = fma(x, x, y * y);
+    const float turn = along2 > 0.0f ? math_atan2(y, x) * (2.0f * MATH_INV_PI) : 0.0f;
     float tr, ts, tp, tm;
     const uint r = albedo_node(roughness, ALBEDO_LONG, &tr), s = albedo_node(strength, ALBEDO_SHORT, &ts),
                p = albedo_node(turn, ALBEDO_SHORT, &tp), m = albedo_node(root_mu, ALBEDO_LONG, &tm);
     global const float* table = tables + ALBEDO_ANISOTROPIC_FIRST;
-    Vec2 value = vec2_make(0.0f, 0.0f);
+    const float alpha = roughness * roughness, alpha_x = fma(1.0f - alpha, strength * strength, alpha);
+    const float share = along2 > 0.0f ? x * x / along2 : 1.0f;
+    const float alpha2 = math_mix(alpha * alpha, alpha_x * alpha_x, share);
+    Vec2 value = albedo_ggx(tables, root_mu, sqrt(sqrt(alpha2)));
     for (uint k = 0u; k < 4u; ++k) {
         const uint upper_r = k & 1u, upper_s = k >> 1;
         const uint plane = (r + upper_r) * ALBEDO_SHORT + s + upper_s;

@@ -5,18 +5,25 @@
 #include "shading/base_bsdf.h"
 
 #if BSDF_FILM
-/* Mean of the film's reflectance over the reflections of the rough base, weighted as they are seen. */
-TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
+/* Mean of the film's reflectance over the reflections of the rough base, weighted as they are seen; of a
+ * body's boundary (eta: index beyond over index before, else 0) over all its normals that do not reflect
+ * totally. */
+TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo, float eta) {
     if (b->smooth) return film_reflectance(&b->film_input, b->film0, wo.z);
     Colour sum = colour_splat(0.0f);
     float weights = 0.0f;
     for (uint k = 0u; k < 16u; ++k) {
         Vec2 u = vec2_make((float)k * 0.618034f, ((float)k + 0.5f) * 0.0625f);
         Vec3 h = base_normal(b, wo, 1.0f, vec2_make(u.x - math_floor(u.x), u.y));
-        float c = math_min(vec3_dot(wo, h), 1.0f);
-        Vec3 wi = vec3_reflect(wo, h);
-        if (wi.z <= 0.0f) continue;
-        float g = ggx_masking(wo.z, b->stretch, wi.z, base_stretch(b, wi)) * (wo.z + b->stretch);
+        float c = math_min(vec3_dot(wo, h), 1.0f), g = 1.0f;
+        if (eta > 0.0f) {
+            if (eta < 1.0f) c = fresnel_refracted_cosine(c, eta);
+            if (c <= 0.0f) continue;
+        } else {
+            Vec3 wi = vec3_reflect(wo, h);
+            if (wi.z <= 0.0f) continue;
+            g = ggx_masking(wo.z, b->stretch, wi.z, base_stretch(b, wi)) * (wo.z + b->stretch);
+        }
         sum = colour_fma_scale(g, film_reflectance(&b->film_input, b->film0, c), sum);
         weights += g;
     }
@@ -31,7 +38,7 @@ TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
 TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float opaque, float kept,
                                    Colour* coat_albedo) {
     b->film_input = in->film_input;
-    Colour mean = base_film_mean(b, wo);
+    Colour mean = base_film_mean(b, wo, 0.0f);
     Colour whole = colour_fma_scale((1.0f - kept) / kept, mean, colour_splat(1.0f));
     Colour film_albedo = colour_scale(colour_mul(whole, mean), in->film * kept);
     float weight = fma(opaque, in->specular, in->metallic);
@@ -87,6 +94,13 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
             kept = colour_add(
                 colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
                 colour_scale(lost, glass.y));
+#if BSDF_FILM
+            if (b->film_share > 0.0f) { /* reflects another share than the interface that the table is of */
+                Colour film = colour_fma_scale(reflected - glass.y, base_film_mean(b, wo, b->eta),
+                                               colour_splat(glass.y));
+                kept = colour_fma_scale(b->film_share, colour_sub(film, kept), kept);
+            }
+#endif
         }
         b->transmitter = colour_div(colour_splat(transmitter), kept);
         /* Inside a rough body most normals reflect totally, and many of them into the surface. Samples
@@ -150,7 +164,7 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     float root_mu = sqrt(wo.z);
     if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
 #if BSDF_STRETCHED
-    if (b.alpha_x != b.alpha)
+    if (!b.smooth && b.alpha_x != b.alpha)
         albedo = albedo_anisotropic(albedo_tables, root_mu, wo, sqrt(b.alpha), in->anisotropy);
 #endif
     float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
@@ -166,7 +180,7 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
 #if BSDF_FILM
     b.stretch = base_stretch(&b, wo); /* the film's mean needs it */
     float film_albedo = 0.0f;
-    if (in->film > 0.0f) {
+    if (in->film > 0.0f && in->film_input.thickness > 0.0f) {
         b.film0 = colour_fma_scale(in->metallic, colour_sub(metal0, coat0), coat0);
         film_albedo = base_add_film(&b, in, wo, opaque, albedo.x, &coat_albedo);
     }

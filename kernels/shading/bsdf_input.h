@@ -18,7 +18,7 @@
 #if BSDF_FILM
 /* A thin film between air and the base (shading/thin_film.h). */
 typedef struct FilmInput {
-    float ior;                     /* at least 1 */
+    float ior;                     /* 1 to 1e6 */
     float thickness;               /* nm */
     global const float* responses; /* Scene.film_responses */
 #if TRIAD_HERO

@@ -22,6 +22,14 @@ typedef struct CoatLobe {
     float albedo; /* of the lobe as seen from wo */
 } CoatLobe;
 
+/* Albedo of the lobe as seen at a cosine to its normal; weight: as of CoatLobe. */
+TRIAD_FUNCTION float coat_albedo(global const float* albedo_tables, float factor, float roughness,
+                                 float cosine, float* weight) {
+    Vec2 e = albedo_ggx(albedo_tables, sqrt(math_min(cosine, 1.0f)), roughness);
+    *weight = factor * fma((1.0f - e.x) / e.x, COAT_F0, 1.0f);
+    return *weight * fma(COAT_F0, e.x, (1.0f - COAT_F0) * e.y);
+}
+
 TRIAD_FUNCTION CoatLobe coat_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
     CoatLobe c;
     c.albedo = c.weight = 0.0f;
@@ -32,9 +40,7 @@ TRIAD_FUNCTION CoatLobe coat_make(const BsdfInput* in, Vec3 wo, global const flo
     c.alpha = math_max(math_square(in->coat_roughness), COAT_MIN_ALPHA);
     c.stretch = ggx_stretch(c.wo, c.alpha);
     c.cap = ggx_cap(c.wo, c.alpha);
-    Vec2 e = albedo_ggx(albedo_tables, sqrt(math_min(c.wo.z, 1.0f)), in->coat_roughness);
-    c.weight = in->coat * fma((1.0f - e.x) / e.x, COAT_F0, 1.0f);
-    c.albedo = c.weight * fma(COAT_F0, e.x, (1.0f - COAT_F0) * e.y);
+    c.albedo = coat_albedo(albedo_tables, in->coat, in->coat_roughness, c.wo.z, &c.weight);
     return c;
 }
 

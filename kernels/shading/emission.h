@@ -148,6 +148,9 @@ TRIAD_FUNCTION PhotonSource photon_emit(const Scene* scene, global const PhotonF
         const float outside = copysign(32.0f * 0x1.0p-23f, vec3_dot(axis, direction));
         origin = vec3_add_scaled(origin, axis, outside * vec3_largest_abs(origin));
         if (cosine > 0.0f) s.power = vec3_scale(radiance, cosine * light.area * solid_angle / probability);
+#if TRIAD_CLEARCOAT
+        s.power = vec3_scale(s.power, coat_light(scene, &light, b, direction));
+#endif
         s.ray.skip_instance = 0u; /* emissive geometry is flattened */
         s.ray.skip_primitive = light.primitive;
     }

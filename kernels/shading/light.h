@@ -5,6 +5,7 @@
 
 #include "common/random.h"
 #include "common/sampling.h"
+#include "shading/coat_emission.h"
 #include "shading/environment.h"
 #include "shading/light_tree.h"
 #include "shading/surface.h"
@@ -28,7 +29,7 @@ TRIAD_FUNCTION float light_triangle_inverse_pdf(const Light* light, float invers
 }
 
 #if TRIAD_TRIANGLE_LIGHTS
-/* What a triangle emits at barycentric weights b of its corners 1 and 2. */
+/* What a triangle emits at barycentric weights b of its corners 1 and 2, below its varnish. */
 TRIAD_FUNCTION Vec3 light_triangle_radiance(const Scene* scene, const Light* light, Vec2 b) {
     Vec3 radiance = VEC3_OF(light->colour);
 #if TRIAD_TEXTURES
@@ -65,7 +66,10 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
         n = vec3_negate(n);
     }
     if (!(cosine > 0.0f) || !math_is_finite(inverse_distance2)) return 0;
-    const Vec3 radiance = light_triangle_radiance(scene, light, b);
+    Vec3 radiance = light_triangle_radiance(scene, light, b);
+#if TRIAD_CLEARCOAT
+    radiance = vec3_scale(radiance, coat_light(scene, light, b, vec3_negate(s->direction)));
+#endif
     s->inverse_pdf = light_triangle_inverse_pdf(light, inverse_distance2, cosine);
     s->weight = vec3_scale(radiance, s->inverse_pdf);
     /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */

@@ -11,7 +11,8 @@
 typedef struct SheenLobe {
     Colour colour;
     float inverse_alpha;
-    float mix; /* (1 - alpha)^2, between the masking's two fits */
+    float mix;    /* (1 - alpha)^2, between the masking's two fits */
+    float cosine; /* of wo, bounded as sheen_cosine() does */
     float lambda_wo;
     float scale;  /* where the formula gives more light than there is, at grazing angles: its inverse */
     float albedo; /* of the white lobe as seen from wo */
@@ -30,6 +31,10 @@ TRIAD_FUNCTION float sheen_lambda(float c, float t) {
     return math_exp(fma(2.0f, sheen_fit(0.5f, t), -sheen_fit(math_max(1.0f - c, 0.0f), t)));
 }
 
+/* The fit of Lambda ends at e^17 and the formula divides by the cosine: closer to the horizon than its albedo
+ * is known the lobe would grow without bound, and stays what it is there. */
+TRIAD_FUNCTION float sheen_cosine(float c) { return math_max(c, SHEEN_MIN_COSINE); }
+
 TRIAD_FUNCTION SheenLobe sheen_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
     SheenLobe s;
     s.colour = in->sheen;
@@ -38,7 +43,8 @@ TRIAD_FUNCTION SheenLobe sheen_make(const BsdfInput* in, Vec3 wo, global const f
     const float roughness = math_max(in->sheen_roughness, SHEEN_MIN_ROUGHNESS), alpha = roughness * roughness;
     s.inverse_alpha = 1.0f / alpha;
     s.mix = math_square(1.0f - alpha);
-    s.lambda_wo = sheen_lambda(wo.z, s.mix);
+    s.cosine = sheen_cosine(wo.z);
+    s.lambda_wo = sheen_lambda(s.cosine, s.mix);
     const float albedo = albedo_sheen(albedo_tables, sqrt(wo.z), roughness);
     s.scale = 1.0f / math_max(albedo, 1.0f);
     s.albedo = math_min(albedo, 1.0f);
@@ -53,8 +59,8 @@ TRIAD_FUNCTION float sheen_eval(const SheenLobe* s, Vec3 wo, Vec3 wi) {
     /* sin^(1 / alpha) of the angle to the normal */
     float sine2 = math_min(fma(h.x, h.x, h.y * h.y) / l2, 1.0f);
     float d = (2.0f + s->inverse_alpha) * math_pow(sine2, 0.5f * s->inverse_alpha) * (0.5f * MATH_INV_PI);
-    float shadowed = 1.0f + s->lambda_wo + sheen_lambda(wi.z, s->mix);
-    return s->scale * d / (4.0f * wo.z * shadowed);
+    float cosine = sheen_cosine(wi.z), shadowed = 1.0f + s->lambda_wo + sheen_lambda(cosine, s->mix);
+    return s->scale * d / (4.0f * s->cosine * shadowed) * (wi.z / cosine);
 }
 #endif
 

@@ -122,17 +122,7 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
 
     Vec4 colour;
     surface_attributes(scene, &g, &t, u, v, &s.uv0, &s.uv1, &colour);
-    Vec3 ns = n;
-    if (g.normal != TRIAD_NONE) {
-        const Vec3 n0 = vec3_load(scene->normals, g.normal + t.vertex[0]);
-        const Vec3 n1 = vec3_load(scene->normals, g.normal + t.vertex[1]);
-        const Vec3 n2 = vec3_load(scene->normals, g.normal + t.vertex[2]);
-        ns = vec3_add_scaled(vec3_add_scaled(n0, vec3_sub(n1, n0), u), vec3_sub(n2, n0), v);
-#if TRIAD_INSTANCES
-        if (instance != 0u) ns = transform_normal(scene->instances[instance].to_object, ns);
-#endif
-        ns = normalize_or(ns, n);
-    }
+    Vec3 ns = surface_smooth_normal(scene, &g, &t, u, v, instance, n);
     global const Material* m = scene->materials + g.material;
     const Vec3 smooth_normal = ns;
 #if TRIAD_NORMAL_MAPS

@@ -14,6 +14,30 @@ TRIAD_FUNCTION Vec4 surface_texture(const Scene* scene, uint use, const Surface*
 #endif
 }
 
+#if TRIAD_CLEARCOAT
+/* The varnish alone; n as of surface_extend(). Where there is none, s->coat is 0. */
+TRIAD_FUNCTION void surface_coat(const Scene* scene, global const Material* m, const Geometry* g,
+                                 const Triangle* t, float u, float v, uint instance, Vec3 n, Surface* s) {
+    const Vec4 one = vec4_splat(1.0f);
+    const int has = m->extensions != TRIAD_NONE;
+    global const ClearcoatBlock* b = &scene->extensions[has ? m->extensions : 0u].clearcoat;
+    s->coat = 0.0f;
+    if (!(has && b->factor > 0.0f)) return;
+    s->coat = b->factor * surface_texture(scene, b->factor_use, s, one).x;
+    s->coat_roughness = b->roughness * surface_texture(scene, b->roughness_use, s, one).y;
+    s->coat_normal = n;
+#if TRIAD_NORMAL_MAPS
+    if (b->normal_use != TRIAD_NONE && g->tangent != TRIAD_NONE) {
+        const SurfaceTangents tangents = surface_tangents(scene, g, t, u, v, instance, n);
+        s->coat_normal = surface_normal_map(scene, b->normal_use, b->normal_scale, &tangents, s, n);
+    }
+#else
+    (void)g, (void)t, (void)u, (void)v, (void)instance;
+#endif
+    if (vec3_dot(s->coat_normal, s->geometric_normal) < 0.0f) s->coat_normal = vec3_negate(s->coat_normal);
+}
+#endif
+
 /* n: unit, the vertices' normal; not turned. */
 TRIAD_FUNCTION void surface_extend(const Scene* scene, global const Material* m, const Geometry* g,
                                    const Triangle* t, float u, float v, uint instance, Vec3 n, Surface* s) {
@@ -21,21 +45,7 @@ TRIAD_FUNCTION void surface_extend(const Scene* scene, global const Material* m,
     const int has = m->extensions != TRIAD_NONE;
     global const MaterialExtensions* e = scene->extensions + (has ? m->extensions : 0u);
 #if TRIAD_CLEARCOAT
-    s->coat = 0.0f;
-    if (has && e->clearcoat.factor > 0.0f) {
-        global const ClearcoatBlock* b = &e->clearcoat;
-        s->coat = b->factor * surface_texture(scene, b->factor_use, s, one).x;
-        s->coat_roughness = b->roughness * surface_texture(scene, b->roughness_use, s, one).y;
-        s->coat_normal = n;
-#if TRIAD_NORMAL_MAPS
-        if (b->normal_use != TRIAD_NONE && g->tangent != TRIAD_NONE) {
-            const SurfaceTangents tangents = surface_tangents(scene, g, t, u, v, instance, n);
-            s->coat_normal = surface_normal_map(scene, b->normal_use, b->normal_scale, &tangents, s, n);
-        }
-#endif
-        if (vec3_dot(s->coat_normal, s->geometric_normal) < 0.0f)
-            s->coat_normal = vec3_negate(s->coat_normal);
-    }
+    surface_coat(scene, m, g, t, u, v, instance, n, s);
 #endif
 #if TRIAD_SHEEN
     s->sheen = vec3_splat(0.0f);

@@ -83,6 +83,22 @@ TRIAD_FUNCTION void surface_attributes(const Scene* scene, const Geometry* g, co
 #endif
 }
 
+/* Of the vertices, unit and not turned; n, the triangle's, where they have none. */
+TRIAD_FUNCTION Vec3 surface_smooth_normal(const Scene* scene, const Geometry* g, const Triangle* t, float u,
+                                          float v, uint instance, Vec3 n) {
+    if (g->normal == TRIAD_NONE) return n;
+    const Vec3 n0 = vec3_load(scene->normals, g->normal + t->vertex[0]);
+    const Vec3 n1 = vec3_load(scene->normals, g->normal + t->vertex[1]);
+    const Vec3 n2 = vec3_load(scene->normals, g->normal + t->vertex[2]);
+    Vec3 ns = vec3_add_scaled(vec3_add_scaled(n0, vec3_sub(n1, n0), u), vec3_sub(n2, n0), v);
+#if TRIAD_INSTANCES
+    if (instance != 0u) ns = transform_normal(scene->instances[instance].to_object, ns);
+#else
+    (void)instance;
+#endif
+    return normalize_or(ns, n);
+}
+
 #if TRIAD_NORMAL_MAPS || TRIAD_ANISOTROPY
 /* Across the unit normal n, right- or left-handed as the vertices say: x; y. Zero where there is none. */
 typedef struct SurfaceTangents {

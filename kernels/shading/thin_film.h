@@ -15,10 +15,15 @@
 #include "shading/fresnel.h"
 
 #if BSDF_FILM
+/* Beyond it, in nm, float does not tell the phases of a wavelength apart, nor is light as coherent as that.
+ */
+#define FILM_MOST_DIFFERENCE 1e8f
+
 /* Mean of cos(2 pi D / lambda), D in nm, at the colours' channels or wavelengths. */
 TRIAD_FUNCTION Colour film_cosine(const FilmInput* film, float difference) {
 #if TRIAD_HERO
     const Vec4 w = film->wavelengths;
+    if (!(difference < FILM_MOST_DIFFERENCE)) return colour_splat(0.0f);
     return vec4_make(math_cos_turns(difference / w.x), math_cos_turns(difference / w.y),
                      math_cos_turns(difference / w.z), math_cos_turns(difference / w.w));
 #else
@@ -44,8 +49,7 @@ TRIAD_FUNCTION float film_transmitted(float r12, float r23, const float cosines[
 /* One channel; c1, c2: cosines in air and in the film. */
 TRIAD_FUNCTION float film_channel(float ior, float f0, float c1, float c2, const float cosines[FILM_ORDERS]) {
     const float root = sqrt(math_min(f0, 0.9998f)), base = (1.0f + root) / (1.0f - root);
-    const float sine = math_sqrt((1.0f - c1) * (1.0f + c1)) / base,
-                c3 = math_sqrt((1.0f - sine) * (1.0f + sine));
+    const float c3 = fresnel_refracted_cosine(c1, base);
     const float s12 = (c1 - ior * c2) / (c1 + ior * c2), p12 = (ior * c1 - c2) / (ior * c1 + c2);
     const float s23 = (ior * c2 - base * c3) / (ior * c2 + base * c3),
                 p23 = (base * c2 - ior * c3) / (base * c2 + ior * c3);
@@ -56,8 +60,7 @@ TRIAD_FUNCTION float film_channel(float ior, float f0, float c1, float c2, const
 /* c: cosine in air; f0: of the base without the film. */
 TRIAD_FUNCTION_PER_CALL Colour film_reflectance(const FilmInput* film, Colour f0, float c) {
     const float c1 = math_max(math_min(c, 1.0f), 1e-4f);
-    const float sine = math_sqrt((1.0f - c1) * (1.0f + c1)) / film->ior,
-                c2 = math_sqrt((1.0f - sine) * (1.0f + sine));
+    const float c2 = fresnel_refracted_cosine(c1, film->ior);
     const float difference = 2.0f * film->ior * film->thickness * c2;
     float x[FILM_ORDERS], y[FILM_ORDERS], z[FILM_ORDERS];
 #if TRIAD_HERO

@@ -133,7 +133,8 @@ TRIAD_SIZE(MaterialExtensions, 128);
  * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over
  * [0, 1]. Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index
  * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. Then
- * stretched GGX reflection: [roughness][strength][azimuth of wo over [0, pi/2]][sqrt(mu)][2] as the first.
+ * what stretched GGX reflection has more than GGX of the alpha along wo:
+ * [roughness][strength][azimuth of wo over [0, pi/2]][sqrt(mu)][2] as the first.
  * Then the white sheen lobe: [roughness from SHEEN_MIN_ROUGHNESS to 1][sqrt(mu)]. */
 #define ALBEDO_SIZE 32
 #define ALBEDO_GLASS_SIZE 16
@@ -148,6 +149,8 @@ TRIAD_SIZE(MaterialExtensions, 128);
 #define ALBEDO_FLOATS (ALBEDO_SHEEN_FIRST + ALBEDO_SIZE * ALBEDO_SIZE)
 /* Below it fibres would be flat. */
 #define SHEEN_MIN_ROUGHNESS 0.07f
+/* The cosine of the table's first column, in place of 0. */
+#define SHEEN_MIN_COSINE 1e-3f
 
 /* Thin films (kernels/shading/thin_film.h): how many reflections within the film are told apart, and the
  * table of mean cosines: rows of FILM_STEP nm of optical path difference, three channels each. */

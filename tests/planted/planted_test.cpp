@@ -11,53 +11,12 @@
 
 #include "check/check.h"
 #include "device/device_fixture.h"
+#include "faults.h"
 
 namespace fs = std::filesystem;
 
 namespace triad {
 namespace {
-
-struct Fault {
-    const char* name;
-    const char* file;   ///< of kernels/
-    const char* right;  ///< text that must be there exactly once
-    const char* wrong;
-    const char* caught_by;  ///< id of a case
-};
-
-const Fault faults[] = {
-    {"epsilon_instead_of_id_skip", "traversal/triangle.h", "(TRIANGLE_LOAD(lane, block->primitive) != skip)",
-     "(t > 1e-4f)", "C3"},
-    {"contraction_on", "common/language.h", "FP_CONTRACT OFF", "FP_CONTRACT ON", "M10"},
-    {"min_instead_of_fmin", "common/math.h", "{ return a < b ? a : b; }", "{ return b < a ? b : a; }", "M8"},
-    {"pdf_in_the_wrong_measure", "shading/light.h", "area_per_pick * cosine * inverse_distance2",
-     "area_per_pick", "D2"},
-    {"missing_jacobian", "shading/base_sample.h", "eta * eta * -wi_h / l2", "1.0f", "C11c"},
-    {"off_by_one_in_the_cdf", "shading/environment.h", "cdf_below(tree + first + 8u * i, u);",
-     "cdf_below(tree + first + 8u * i, u) + (level + 1u == levels ? 1u : 0u);", "S6"},
-    {"children_of_lights_by_their_shares_alone", "shading/light_tree.h", "rest -= (uint)ends[child];\n", "\n",
-     "S7"},
-    {"lights_seen_from_behind_alone", "shading/light_tree.h", "fma(cos_a, cos_b, sin_a * sin_b)",
-     "fma(cos_a, cos_b, -(sin_a * sin_b))", "S8"},
-    {"unshuffled_sobol", "common/random.h", "random_owen_reversed((RandomLanes)(s->index_reversed), hash)",
-     "(RandomLanes)(s->index_reversed)", "C18d"},
-    {"photon_cells_share_buckets", "shading/photon_map.h", "((uint)cell.y & 1u) << 1",
-     "((uint)cell.y & 1u) << 2", "P1"},
-    {"clamped_roulette", "path/survive.h", "1.0f / survive", "math_min(1.0f / survive, 1.05f)", "C20"},
-    {"swapped_tangent", "common/frame.h", "(v.x, f->x, vec3_fma_scale(v.y, f->y",
-     "(v.x, f->y, vec3_fma_scale(v.y, f->x", "C22"},
-    {"wrong_eta_side", "shading/base_make.h", "in->inside ? 1.0f / in->ior : in->ior",
-     "in->inside ? in->ior : 1.0f / in->ior", "B2"},
-    {"floats_that_reach_1", "common/random.h", "(float)(bits >> 8) * 5.9604644775390625e-8f",
-     "(float)bits * 2.3283064365386963e-10f", "C19"},
-    {"infinity_taken_for_a_number", "common/math.h", "(as_uint(x) & 0x7f800000u) != 0x7f800000u", "x == x",
-     "M8"},
-    {"differences_without_compensation", "common/math.h", "fma(a, b, -cd) + fma(-c, d, cd)", "a * b - cd",
-     "M9"},
-    {"cones_by_a_difference_of_cosines", "common/sampling.h", "sin2 / (1.0f + math_sqrt(1.0f - sin2))",
-     "1.0f - math_sqrt(1.0f - sin2)", "C13"},
-    {"film_through_32_bits", "common/film.h", "return (long)(", "return (int)(", "C17b"},
-};
 
 std::string text_of(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);

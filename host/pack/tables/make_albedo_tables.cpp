@@ -142,23 +142,25 @@ int main() {
                     const double root = double(m) / n, roughness = double(r) / n;
                     print(glass(root * root, roughness * roughness, inside ? 1 / ior : ior));
                 }
-    const double least = 1e-3;  // a roughness or cosine of 0 has no integral
     for (int r = 0; r < ALBEDO_LONG; ++r)
         for (int s = 0; s < ALBEDO_SHORT; ++s)
             for (int p = 0; p < ALBEDO_SHORT; ++p)
                 for (int m = 0; m < ALBEDO_LONG; ++m) {
-                    const double root = double(m) / (ALBEDO_LONG - 1),
-                                 strength = double(s) / (ALBEDO_SHORT - 1);
-                    const double roughness = double(r) / (ALBEDO_LONG - 1);
-                    const double alpha = std::max(roughness * roughness, double(BSDF_SMOOTH_ALPHA));
-                    print(stretched(std::max(root * root, least),
-                                    0.5 * 3.14159265358979323846 * p / (ALBEDO_SHORT - 1),
-                                    alpha + (1 - alpha) * strength * strength, alpha));
+                    const double mu = double(m) * m / ((ALBEDO_LONG - 1) * (ALBEDO_LONG - 1)),
+                                 phi = 0.5 * 3.14159265358979323846 * p / (ALBEDO_SHORT - 1),
+                                 strength = double(s) / (ALBEDO_SHORT - 1),
+                                 roughness = double(r) / (ALBEDO_LONG - 1);
+                    const double alpha = std::max(roughness * roughness, double(BSDF_SMOOTH_ALPHA)),
+                                 alpha_x = alpha + (1 - alpha) * strength * strength;
+                    const double along = std::hypot(alpha_x * std::cos(phi), alpha * std::sin(phi));
+                    const Pair whole = stretched(mu, phi, alpha_x, alpha),
+                               round = stretched(mu, phi, along, along);
+                    print({whole.first - round.first, whole.second - round.second});
                 }
     for (int r = 0; r < ALBEDO_SIZE; ++r)
         for (int m = 0; m < ALBEDO_SIZE; ++m) {
             const double root = double(m) / (ALBEDO_SIZE - 1), t = double(r) / (ALBEDO_SIZE - 1);
-            std::printf("%.8ef,\n", sheen(std::max(root * root, least),
+            std::printf("%.8ef,\n", sheen(std::max(root * root, double(SHEEN_MIN_COSINE)),
                                           SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * t));
         }
 }
