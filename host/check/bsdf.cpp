@@ -65,12 +65,15 @@ void samples_follow_the_pdf(Check& check) {
             const Buffer buffer = check.device.upload(std::vector<Case>{c});
             const Arguments arguments = Arguments().add(buffer).add(tables(check));
             const auto samples = run_kernel<Four>(check.device, source, "draw", arguments, count);
-            const auto integral = run_kernel<float>(
-                check.device, source, "integrate",
-                Arguments(arguments).add(std::uint32_t(rows)).add(std::uint32_t(columns)), rows * columns);
+            const auto parts =
+                run_kernel<float>(check.device, source, "integrate",
+                                  Arguments(arguments).add(std::uint32_t(rows)).add(std::uint32_t(columns)),
+                                  rows * columns * integral_parts);
+            std::vector<double> integral(rows * columns);
+            for (std::size_t i = 0; i < parts.size(); ++i) integral[i / integral_parts] += parts[i];
             std::vector<double> counts(rows * columns), expected;
             double total = 0, inverse = 0;
-            for (float p : integral) expected.push_back(p * double(count)), total += p;
+            for (double p : integral) expected.push_back(p * double(count)), total += p;
             for (const Four& s : samples) {
                 if (s[3] <= 0) continue;
                 const double turn = std::atan2(s[1], s[0]) / (2 * pi);

@@ -1,5 +1,6 @@
 #pragma once
 /// The glTF material as kernels: what the cases on its energy, sampling and closed forms share.
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -76,16 +77,17 @@ TRIAD_FUNCTION float energy_scale(const Bsdf* b, uint event) {
     return 1.0f;
 #endif
 }
-/* Mean energy over `samples` samples: out = (r, g, b, share of transmission), (largest |eval - weight pdf| / value, NaNs,
- * largest weight, samples that are not unit or on the wrong side). */
-__kernel void furnace(__global Vec4* out, __global const Case* cases, __global const float* tables, uint samples, uint count) {
-    const uint i = get_global_id(0);
-    if (i >= count) return;
+/* Energy of samples [part * each, min(samples, (part + 1) * each)) of a case: out = (r, g, b, transmission),
+ * (largest |eval - weight pdf| / value, NaNs, largest weight, samples that are not unit or on the wrong side). */
+__kernel void furnace(__global Vec4* out, __global const Case* cases, __global const float* tables, uint samples,
+                      uint each, uint parts, uint count) {
+    const uint item = get_global_id(0), i = item / parts, first = item % parts * each;
+    if (item >= count) return;
     Bsdf b;
     const Vec3 wo = make(cases + i, &b, tables);
     Vec3 sum = vec3_splat(0.0f);
     float transmitted = 0.0f, difference = 0.0f, nans = 0.0f, largest = 0.0f, wrong = 0.0f;
-    for (uint k = 0; k < samples; ++k) {
+    for (uint k = first; k < min(samples, first + each); ++k) {
         const Sampler s = sampler_make(i, k, 0u, 0u, 3u);
         const BsdfSample a = bsdf_sample(&b, wo, sampler_2d(&s, 1u).x, sampler_2d(&s, 0u));
         const Vec3 w = colour_scale(a.weight, energy_scale(&b, a.event));
@@ -102,8 +104,8 @@ __kernel void furnace(__global Vec4* out, __global const Case* cases, __global c
             difference = math_max((vec3_largest(d) + fabs(pdf - a.pdf)) / (vec3_largest(f) + pdf), difference);
         }
     }
-    out[2 * i] = vec4_div(vec3_with(sum, transmitted), vec4_splat((float)samples));
-    out[2 * i + 1] = vec4_make(difference, nans, largest, wrong);
+    out[2 * item] = vec3_with(sum, transmitted);
+    out[2 * item + 1] = vec4_make(difference, nans, largest, wrong);
 }
 /* Many samples of cases[0]: (wi, pdf). */
 __kernel void draw(__global Vec4* out, __global const Case* cases, __global const float* tables, uint count) {
@@ -115,15 +117,16 @@ __kernel void draw(__global Vec4* out, __global const Case* cases, __global cons
     const BsdfSample a = bsdf_sample(&b, wo, sampler_2d(&s, SAMPLER_SOBOL_SETS).x, sampler_2d(&s, SAMPLER_SOBOL_SETS + 1u));
     out[i] = a.event == BSDF_NONE ? vec4_splat(0.0f) : vec3_with(a.wi, a.pdf);
 }
-/* Integral of the pdf over the cells of a grid in (cos theta, phi), by 64 x 32 midpoints each. */
+/* Integral of the pdf over the cells of a grid in (cos theta, phi), by 64 x 32 midpoints each, of which an item takes two
+ * rows. */
 __kernel void integrate(__global float* out, __global const Case* cases, __global const float* tables, uint rows,
                         uint columns, uint count) {
-    const uint i = get_global_id(0);
-    if (i >= count) return;
+    const uint item = get_global_id(0), i = item / 32u;
+    if (item >= count) return;
     Bsdf b;
     const Vec3 wo = make(cases, &b, tables);
     float sum = 0.0f;
-    for (uint j = 0; j < 2048; ++j) {
+    for (uint j = item % 32u * 64u; j < (item % 32u + 1u) * 64u; ++j) {
         const float z = -1.0f + 2.0f * (convert_float(i / columns) + (convert_float(j / 32) + 0.5f) / 64) / rows;
         float s, c, pdf;
         math_sincos_turns((convert_float(i % columns) + (convert_float(j % 32) + 0.5f) / 32) / columns, &s, &c);
@@ -131,7 +134,7 @@ __kernel void integrate(__global float* out, __global const Case* cases, __globa
         bsdf_eval(&b, wo, vec3_make(r * c, r * s, z), &pdf);
         sum += pdf;
     }
-    out[i] = sum * (4.0f * MATH_PI) / (convert_float(rows * columns) * 2048.0f);
+    out[item] = sum * (4.0f * MATH_PI) / (convert_float(rows * columns) * 2048.0f);
 }
 /* One sample with the random numbers of the case: (wi, pdf), (weight, event). */
 __kernel void once(__global Vec4* out, __global const Case* cases, __global const float* tables, uint count) {
@@ -185,7 +188,7 @@ inline std::vector<Case> many_cases(const Check& check) {
 }
 
 struct Furnace {
-    float r, g, b, transmitted, difference, nans, largest, wrong;
+    float r = 0, g = 0, b = 0, transmitted = 0, difference = 0, nans = 0, largest = 0, wrong = 0;
 };
 
 /// The albedo tables and, behind them, the responses of thin films.
@@ -196,11 +199,34 @@ inline Buffer tables(Check& check) {
     return check.device.upload(all);
 }
 
+/// Items that share an integral over a cell.
+constexpr std::size_t integral_parts = 32;
+
+/// Of one item: llvmpipe ends an item's loops after 65,535 rounds in all, and a GPU has other items to run.
+constexpr std::uint32_t furnace_samples_of_an_item = 256;
+
+/// Means over samples.
 inline std::vector<Furnace> furnace(Check& check, const std::vector<Case>& cases, std::uint32_t samples,
                                     const Options& options = {}) {
-    return run_kernel<Furnace>(check.device, source, "furnace",
-                               Arguments().add(check.device.upload(cases)).add(tables(check)).add(samples),
-                               cases.size(), 1, options);
+    const std::uint32_t each = furnace_samples_of_an_item, parts = (samples + each - 1) / each;
+    const auto all = run_kernel<Furnace>(
+        check.device, source, "furnace",
+        Arguments().add(check.device.upload(cases)).add(tables(check)).add(samples).add(each).add(parts),
+        cases.size() * parts, 1, options);
+    std::vector<Furnace> means;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        double sums[4] = {};
+        Furnace& of = means.emplace_back();
+        for (std::size_t part = 0; part < parts; ++part) {
+            const Furnace& f = all[i * parts + part];
+            sums[0] += f.r, sums[1] += f.g, sums[2] += f.b, sums[3] += f.transmitted;
+            of.difference = std::max(of.difference, f.difference), of.nans += f.nans;
+            of.largest = std::max(of.largest, f.largest), of.wrong += f.wrong;
+        }
+        of.r = float(sums[0] / samples), of.g = float(sums[1] / samples), of.b = float(sums[2] / samples);
+        of.transmitted = float(sums[3] / samples);
+    }
+    return means;
 }
 
 inline void expect_sound(Check& check, const Furnace& f, const Case& c) {
