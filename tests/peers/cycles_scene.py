@@ -249,11 +249,62 @@ def value_of(socket):
     return value if isinstance(value, float) else tuple(value)
 
 
-def thin_walls(material, definition):
+def fresnel(c, n):
+    """Of a bare face of index n, unpolarised."""
+    g = np.sqrt(n * n - 1 + c * c)
+    return 0.5 * ((g - c) / (g + c)) ** 2 * (1 + ((c * (g + c) - 1) / (c * (g - c) + 1)) ** 2)
+
+
+def wall(c, n):
+    """What a wall reflects: both faces, and all reflections between them."""
+    f = fresnel(c, n)
+    return 2 * f / (1 + f)
+
+
+def rough_wall(mu, roughness, n, samples=4096):
+    """Share that a wall of GGX microfacets reflects, seen at the cosine mu: the mean of wall() over the normals that are seen from
+    there, each at its own angle, by how much of its reflection leaves."""
+    alpha = roughness * roughness
+    if alpha < 1e-3:
+        return float(wall(mu, n))
+    i = np.arange(samples)
+    phi, v = 2 * math.pi * (i * 0.6180339887 % 1), (i + 0.5) / samples
+    o = np.array([alpha * math.sqrt(max(0.0, 1 - mu * mu)), 0.0, mu])
+    o /= np.linalg.norm(o)
+    z = 1 - v * (1 + o[2])  # visible normals by spherical caps: Dupuy and Benyoub 2023
+    r = np.sqrt(np.maximum(0, 1 - z * z))
+    h = np.stack([alpha * (r * np.cos(phi) + o[0]), alpha * r * np.sin(phi), np.maximum(z + o[2], 1e-9)])
+    h /= np.linalg.norm(h, axis=0)
+    c = np.clip(math.sqrt(max(0.0, 1 - mu * mu)) * h[0] + mu * h[2], 0, 1)
+    out = 2 * c * h[2] - mu
+    smith = lambda x: (np.sqrt(1 + alpha * alpha * (1 / np.maximum(x, 1e-9) ** 2 - 1)) - 1) / 2
+    kept = np.where(out > 0, (1 + smith(mu)) / (1 + smith(mu) + smith(out)), 0)
+    return float((kept * wall(c, n)).sum() / kept.sum())
+
+
+def wall_curve(nodes, roughness, n, normal):
+    """rough_wall() of what is looked at, as a socket: a ramp over the cosine with stops at squares."""
+    facing = nodes.new("ShaderNodeLayerWeight", Blend=0.5)
+    if normal is not None:
+        nodes.put(facing.inputs["Normal"], normal)
+    ramp = nodes.new("ShaderNodeValToRGB")
+    nodes.put(ramp.inputs[0], nodes.math("SUBTRACT", 1.0, facing.outputs["Facing"]))
+    stops = ramp.color_ramp.elements
+    for i in range(32):
+        mu = max((i / 31) ** 2, 1e-4)
+        stop = stops[0] if i == 0 else stops[-1] if i == 31 else stops.new(mu)
+        stop.position = mu if 0 < i < 31 else i / 31
+        stop.color = (*[rough_wall(mu, roughness, n)] * 3, 1)
+    return ramp.outputs[0]
+
+
+def thin_walls(material, definition, macroscopic=False):
     """Without KHR_materials_volume, transmission is that of a thin wall; Principled would refract into a body.
 
     A smooth wall of index n reflects R = 2F / (1 + F), F the Fresnel term of one face, and lets the rest through
-    unbent, times the base colour. Mixed with the material without transmission by the transmission's texture.
+    unbent, times the base colour. A rough one reflects the mean of R over its microfacets; where its roughness is a texture, or
+    with `macroscopic`, that of its macroscopic normal stands in. Mixed with the material without transmission by the
+    transmission's texture.
     """
     transmission = extension(definition, "KHR_materials_transmission")
     volume = extension(definition, "KHR_materials_volume") or {}
@@ -268,22 +319,27 @@ def thin_walls(material, definition):
         tree.links.remove(link)
     principled.inputs["Transmission Weight"].default_value = 0.0
     nodes = Nodes(tree)
-    # the IOR is turned over on back faces by Principled and Fresnel alike; a wall has no inside
-    back = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
     index = principled.inputs["IOR"].default_value
-    index = nodes.math("POWER", index, nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", back, 2.0)))
-    fresnel = nodes.new("ShaderNodeFresnel", IOR=index)
     glossy = nodes.new("ShaderNodeBsdfAnisotropic", Roughness=roughness, Color=(1, 1, 1, 1))
-    if normal.is_linked:
-        nodes.put(fresnel.inputs["Normal"], value_of(normal))
-        nodes.put(glossy.inputs["Normal"], value_of(normal))
-    f = fresnel.outputs[0]
-    reflected = nodes.math("DIVIDE", nodes.math("MULTIPLY", f, 2.0), nodes.math("ADD", f, 1.0))
-    wall = nodes.mix(reflected, nodes.new("ShaderNodeBsdfTransparent", Color=colour).outputs[0], glossy.outputs[0])
+    mapped = value_of(normal) if normal.is_linked else None
+    if mapped is not None:
+        nodes.put(glossy.inputs["Normal"], mapped)
+    if isinstance(roughness, float) and not macroscopic:
+        reflected = wall_curve(nodes, roughness, index, mapped)
+    else:
+        # the IOR is turned over on back faces by Principled and Fresnel alike; a wall has no inside
+        back = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
+        index = nodes.math("POWER", index, nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", back, 2.0)))
+        bare = nodes.new("ShaderNodeFresnel", IOR=index)
+        if mapped is not None:
+            nodes.put(bare.inputs["Normal"], mapped)
+        f = bare.outputs[0]
+        reflected = nodes.math("DIVIDE", nodes.math("MULTIPLY", f, 2.0), nodes.math("ADD", f, 1.0))
+    pane = nodes.mix(reflected, nodes.new("ShaderNodeBsdfTransparent", Color=colour).outputs[0], glossy.outputs[0])
     nothing = nodes.new("ShaderNodeBsdfTransparent", Color=(1, 1, 1, 1)).outputs[0]
-    wall = nodes.mix(alpha, nothing, wall)  # the material's own coverage
+    pane = nodes.mix(alpha, nothing, pane)  # the material's own coverage
     share = nodes.math("MULTIPLY", amount, nodes.math("SUBTRACT", 1.0, metallic))
-    mixed = nodes.mix(share, principled.outputs[0], wall)
+    mixed = nodes.mix(share, principled.outputs[0], pane)
     output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
     tree.links.new(mixed, output.inputs["Surface"])
 
