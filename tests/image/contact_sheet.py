@@ -24,15 +24,27 @@ SKY = REPOSITORY / "scenes/suite/sky.hdr"
 SIZE, LABEL, GAP, COLUMNS, ROWS = 256, 20, 2, 8, 5
 BEGIN, END = "<!-- table of contact_sheet.py -->", "<!-- end of the table -->"
 
-# What a model needs beyond the defaults. "dark": no sky, though it has no lamp that info counts.
+# What a model needs beyond the defaults. "dark": no sky, though it has no lamp that info counts; "sky": the sky, though it has.
 LOOK = {
-    "ext-lights/nanogl_PointLightTest/PointLightTest.gltf": ["--exposure", "4"],
     "core/playcanvas_geometry-camera-light/geometry-camera-light.glb": ["--exposure", "-2"],
-    "scenes/bevy_VolumetricFogExample/VolumetricFogExample.glb": ["--exposure", "-14"],
+    "deform/blenderio_01_morphed_cube/01_morphed_cube.gltf": ["--env", "STUDIO"],  # a mirror: the sky's ground hides it
+    "ext-lights/gdx_spotLightTest/spotLightTest.gltf": ["--look-at=3,5,5,0,0,0"],  # its light falls on the upper side alone
+    "ext-lights/nanogl_PointLightTest/PointLightTest.gltf": ["--exposure", "6"],
+    "ext-materials/IridescenceSuzanne-glb/IridescenceSuzanne.glb": ["sky"],
+    "scenes/GlamVelvetSofa/GlamVelvetSofa.gltf": ["sky"],
     "scenes/bevy_CornellBox/CornellBox.glb": ["dark"],
+    # A room without a camera: from within, where one sun of 68300 lux falls through small windows.
+    "scenes/bevy_VolumetricFogExample/VolumetricFogExample.glb": [
+        "--look-at=-1.7,1.5,4.5,-1.5,1.7,3.5", "--fov", "60", "--exposure", "-12", "--spp", "512"],
 }
+STUDIO = "env/studio_small_03_1k.hdr"  # of the assets
 REFUSED = {  # path: exit code
+    "assetgen/Compatibility/Compatibility_04.gltf": 3,
+    "assetgen/Compatibility/Compatibility_05.gltf": 3,
     "ext-textures/cesium_BalloonKTX2/CesiumBalloonKTX2.glb": 3,
+    "ext-other/SharpGLTF_XmpJsonLd/XmpJsonLd.gltf": 2,
+    "ext-other/fastgltf_node_visibility/khr_node_visibility_valid.gltf": 2,
+    "ext-other/fastgltf_transform_matrices/transform_matrices.gltf": 2,
     "core/blenderio_00_no_nodes/00_no_nodes.gltf": 2,
     "core/blenderio_00_empty_scene/00_empty_scene.gltf": 2,
 }
@@ -74,9 +86,10 @@ def render(options, model):
     path = options.assets / model
     facts = info(options, path)
     look = list(LOOK.get(model, []))
-    lamps = facts.get("lights", 0) > 0 or facts.get("environment") or "dark" in look
-    command = [options.triad, "render", path, "-o", tile, "--size", f"{SIZE}x{SIZE}", "--spp", str(options.spp), "-q"]
-    command += [word for word in look if word != "dark"] + ([] if lamps else ["--env", SKY])
+    lamps = (facts.get("lights", 0) > 0 or facts.get("environment") or "dark" in look or "--env" in look) and "sky" not in look
+    command = [options.triad, "render", path, "-o", tile, "--size", f"{SIZE}x{SIZE}", "-q"]
+    command += [] if "--spp" in look else ["--spp", str(options.spp)]
+    command += [options.assets / STUDIO if word == "STUDIO" else word for word in look if word not in ("dark", "sky")] + ([] if lamps else ["--env", SKY])
     start = time.monotonic()
     done = subprocess.run([*command, "--json", options.work / f"{tile.name}.row"], capture_output=True, text=True)
     row = {"model": model, "exit": done.returncode, "wall_s": time.monotonic() - start, "said": done.stderr.strip(),
@@ -100,7 +113,7 @@ def sheets(options, rows):
         for i, row in enumerate(part):
             x, y = i % COLUMNS * (SIZE + GAP), i // COLUMNS * (SIZE + LABEL)
             sheet.paste(Image.open(tile_of(options, row["model"])).convert("RGB"), (x, y))
-            ImageDraw.Draw(sheet).text((x + SIZE // 2, y + SIZE + LABEL // 2), name_of(row["model"]), font=font, anchor="mm")
+            ImageDraw.Draw(sheet).text((x + SIZE // 2, y + SIZE + LABEL // 2), name_of(row["model"]).encode("latin-1", "ignore").decode("latin-1"), font=font, anchor="mm")
         written.append(options.docs / f"images/assets-{first // count + 1}.jpg")
         sheet.save(written[-1], quality=options.quality, optimize=True)
     return written
@@ -117,7 +130,8 @@ def special(row):
     if row["cameras"]:
         words.append("camera")
     if row["look"]:
-        words.append("`" + " ".join(row["look"]) + "`" if "dark" not in row["look"] else "without sky")
+        look = " ".join(row["look"]).replace("STUDIO", pathlib.PurePath(STUDIO).name)
+        words.append({"dark": "without sky", "sky": "with sky"}.get(look, f"`{look}`"))
     return ", ".join(words)
 
 
