@@ -57,12 +57,9 @@ def models(assets):
 
 
 def name_of(model):
-    """Folder and file, said once where they say the same."""
+    """The folder, or the file where a folder holds several."""
     folder, stem = model.split("/")[-2], pathlib.PurePath(model).stem
-    plain = folder.split("_", 1)[-1] if "_" in folder else folder
-    if stem.startswith(folder) or stem in (folder, plain, folder.rsplit("-", 1)[0]):
-        return folder if not stem.startswith(folder + "_") else stem
-    return f"{folder}/{stem}"
+    return stem if model.startswith("assetgen/") else folder
 
 
 def tile_of(options, model):
@@ -113,7 +110,8 @@ def sheets(options, rows):
         for i, row in enumerate(part):
             x, y = i % COLUMNS * (SIZE + GAP), i // COLUMNS * (SIZE + LABEL)
             sheet.paste(Image.open(tile_of(options, row["model"])).convert("RGB"), (x, y))
-            ImageDraw.Draw(sheet).text((x + SIZE // 2, y + SIZE + LABEL // 2), name_of(row["model"]).encode("latin-1", "ignore").decode("latin-1"), font=font, anchor="mm")
+            name = name_of(row["model"]).encode("latin-1", "ignore").decode("latin-1")
+            ImageDraw.Draw(sheet).text((x + SIZE // 2, y + SIZE + LABEL // 2), name, font=font, anchor="mm")
         written.append(options.docs / f"images/assets-{first // count + 1}.jpg")
         sheet.save(written[-1], quality=options.quality, optimize=True)
     return written
@@ -135,8 +133,14 @@ def special(row):
     return ", ".join(words)
 
 
-def table(rows):
-    lines = ["| sheet | model | triangles | seconds | exit | special |", "|---|---|---|---|---|---|"]
+def licences(assets):
+    """By folder: what MANIFEST.json says."""
+    entries = json.loads((assets / "MANIFEST.json").read_text())
+    return {"/".join(entry["entry"].split("/")[:2]): entry["spdx"].split(" (")[0] for entry in entries}
+
+
+def table(rows, licence):
+    lines = ["| sheet | model | triangles | seconds | exit | special | licence |", "|---|---|---|---|---|---|---|"]
     shown = 0
     for row in rows:
         sheet = ""
@@ -146,7 +150,7 @@ def table(rows):
             shown += 1
         seconds = f"{row['render_cpu_s']:.1f}" if row["exit"] == 0 else ""
         lines.append(f"| {sheet} | {row['model'].split('/')[0]}/{name_of(row['model'])} | {row['triangles']} | {seconds} | {row['exit']} "
-                     f"| {special(row)} |")
+                     f"| {special(row)} | {licence.get('/'.join(row['model'].split('/')[:2]), '')} |")
     return "\n".join(lines)
 
 
@@ -171,7 +175,7 @@ def main():
     text = page.read_text()
     if BEGIN in text:
         before, rest = text.split(BEGIN, 1)
-        page.write_text(f"{before}{BEGIN}\n{table(rows)}\n{END}{rest.split(END, 1)[1]}")
+        page.write_text(f"{before}{BEGIN}\n{table(rows, licences(options.assets))}\n{END}{rest.split(END, 1)[1]}")
     wrong = [row for row in rows if row["exit"] != REFUSED.get(row["model"], 0)]
     for row in wrong:
         print(f"exit {row['exit']}: {row['model']}: {row['said']}", file=sys.stderr)
