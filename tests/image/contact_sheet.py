@@ -86,7 +86,8 @@ def render(options, model):
     lamps = (facts.get("lights", 0) > 0 or facts.get("environment") or "dark" in look or "--env" in look) and "sky" not in look
     command = [options.triad, "render", path, "-o", tile, "--size", f"{SIZE}x{SIZE}", "-q"]
     command += [] if "--spp" in look else ["--spp", str(options.spp)]
-    command += [options.assets / STUDIO if word == "STUDIO" else word for word in look if word not in ("dark", "sky")] + ([] if lamps else ["--env", SKY])
+    command += [options.assets / STUDIO if word == "STUDIO" else word for word in look if word not in ("dark", "sky")]
+    command += [] if lamps else ["--env", SKY]
     start = time.monotonic()
     done = subprocess.run([*command, "--json", options.work / f"{tile.name}.row"], capture_output=True, text=True)
     row = {"model": model, "exit": done.returncode, "wall_s": time.monotonic() - start, "said": done.stderr.strip(),

@@ -4,6 +4,7 @@ Blender's importer and its Principled shader differ from glTF in a few places th
 those are put right here, each in a function of its own that says what it changes. What remains is explained in
 docs/agreement.md.
 """
+import functools
 import json
 import math
 import os
@@ -261,6 +262,7 @@ def wall(c, n):
     return 2 * f / (1 + f)
 
 
+@functools.lru_cache(None)
 def rough_wall(mu, roughness, n, samples=4096):
     """Share that a wall of GGX microfacets reflects, seen at the cosine mu: the mean of wall() over the normals that are seen from
     there, each at its own angle, by how much of its reflection leaves."""
@@ -282,29 +284,43 @@ def rough_wall(mu, roughness, n, samples=4096):
     return float((kept * wall(c, n)).sum() / kept.sum())
 
 
+ROUGHNESSES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
+
+
+def wall_ramp(nodes, cosine, roughness, n):
+    """rough_wall() over the cosine, with stops at squares."""
+    ramp = nodes.new("ShaderNodeValToRGB")
+    nodes.put(ramp.inputs[0], cosine)
+    stops = ramp.color_ramp.elements
+    for i in range(32):
+        mu = (i / 31) ** 2
+        stop = stops[0] if i == 0 else stops[-1] if i == 31 else stops.new(mu)
+        stop.position, stop.color = mu, (*[rough_wall(max(mu, 1e-4), roughness, n)] * 3, 1)
+    return ramp.outputs[0]
+
+
 def wall_curve(nodes, roughness, n, normal):
-    """rough_wall() of what is looked at, as a socket: a ramp over the cosine with stops at squares."""
+    """rough_wall() of what is looked at, as a socket; of a textured roughness linear between ROUGHNESSES."""
     facing = nodes.new("ShaderNodeLayerWeight", Blend=0.5)
     if normal is not None:
         nodes.put(facing.inputs["Normal"], normal)
-    ramp = nodes.new("ShaderNodeValToRGB")
-    nodes.put(ramp.inputs[0], nodes.math("SUBTRACT", 1.0, facing.outputs["Facing"]))
-    stops = ramp.color_ramp.elements
-    for i in range(32):
-        mu = max((i / 31) ** 2, 1e-4)
-        stop = stops[0] if i == 0 else stops[-1] if i == 31 else stops.new(mu)
-        stop.position = mu if 0 < i < 31 else i / 31
-        stop.color = (*[rough_wall(mu, roughness, n)] * 3, 1)
-    return ramp.outputs[0]
+    cosine = nodes.math("SUBTRACT", 1.0, facing.outputs["Facing"])
+    if isinstance(roughness, float):
+        return wall_ramp(nodes, cosine, roughness, n)
+    out = wall_ramp(nodes, cosine, 0.0, n)
+    for below, above in zip(ROUGHNESSES, ROUGHNESSES[1:]):
+        t = nodes.math("DIVIDE", nodes.math("SUBTRACT", roughness, below), above - below, clamp=True)
+        step = nodes.math("SUBTRACT", wall_ramp(nodes, cosine, above, n), out)
+        out = nodes.math("ADD", out, nodes.math("MULTIPLY", t, step))
+    return out
 
 
 def thin_walls(material, definition, macroscopic=False):
     """Without KHR_materials_volume, transmission is that of a thin wall; Principled would refract into a body.
 
     A smooth wall of index n reflects R = 2F / (1 + F), F the Fresnel term of one face, and lets the rest through
-    unbent, times the base colour. A rough one reflects the mean of R over its microfacets; where its roughness is a texture, or
-    with `macroscopic`, that of its macroscopic normal stands in. Mixed with the material without transmission by the
-    transmission's texture.
+    unbent, times the base colour. A rough one reflects the mean of R over its microfacets; with `macroscopic` R of its
+    macroscopic normal stands in. Mixed with the material without transmission by the transmission's texture.
     """
     transmission = extension(definition, "KHR_materials_transmission")
     volume = extension(definition, "KHR_materials_volume") or {}
@@ -324,7 +340,7 @@ def thin_walls(material, definition, macroscopic=False):
     mapped = value_of(normal) if normal.is_linked else None
     if mapped is not None:
         nodes.put(glossy.inputs["Normal"], mapped)
-    if isinstance(roughness, float) and not macroscopic:
+    if not macroscopic:
         reflected = wall_curve(nodes, roughness, index, mapped)
     else:
         # the IOR is turned over on back faces by Principled and Fresnel alike; a wall has no inside

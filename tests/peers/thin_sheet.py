@@ -69,7 +69,7 @@ def main():
         for roughness in (0.0, 0.2, 0.5, 0.8):
             path = os.path.join(folder, "sheet.glb")
             sheet(path, roughness)
-            for mu in (0.2, 0.4, 0.7, 1.0):
+            for mu in (0.2, 0.4, 0.7, 0.95):
                 eye = (4 * math.sqrt(max(0, 1 - mu * mu)), 4 * mu, 1e-3)
                 closed = cycles_scene.rough_wall(mu, roughness, 1.5, 1 << 18)
                 triad = [agreement.render_triad(options, path, world, eye, (0, 0, 0), options.spp, 1).mean() for world in worlds]
