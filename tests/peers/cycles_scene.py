@@ -53,6 +53,7 @@ class CyclesScene:
                 exact_absorption(material, definition)
                 thin_walls(material, definition)
                 one_sided_emission(material, definition)
+                exact_anisotropy(material, definition)
         punctual = gltf.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
         exact_lights({light.get("name", ""): light for light in punctual})
         for item in self.scene.objects:
@@ -256,19 +257,19 @@ def fresnel(c, n):
     return 0.5 * ((g - c) / (g + c)) ** 2 * (1 + ((c * (g + c) - 1) / (c * (g - c) + 1)) ** 2)
 
 
-def wall(c, n):
-    """What a wall reflects: both faces, and all reflections between them."""
-    f = fresnel(c, n)
+def wall(c, n, specular=1.0):
+    """What a wall reflects: both faces, and all reflections between them; specular: the factor of KHR_materials_specular."""
+    f = specular * fresnel(c, n)
     return 2 * f / (1 + f)
 
 
 @functools.lru_cache(None)
-def rough_wall(mu, roughness, n, samples=4096):
+def rough_wall(mu, roughness, n, specular=1.0, samples=4096):
     """Share that a wall of GGX microfacets reflects, seen at the cosine mu: the mean of wall() over the normals that are seen from
     there, each at its own angle, by how much of its reflection leaves."""
     alpha = roughness * roughness
     if alpha < 1e-3:
-        return float(wall(mu, n))
+        return float(wall(mu, n, specular))
     i = np.arange(samples)
     phi, v = 2 * math.pi * (i * 0.6180339887 % 1), (i + 0.5) / samples
     o = np.array([alpha * math.sqrt(max(0.0, 1 - mu * mu)), 0.0, mu])
@@ -281,13 +282,13 @@ def rough_wall(mu, roughness, n, samples=4096):
     out = 2 * c * h[2] - mu
     smith = lambda x: (np.sqrt(1 + alpha * alpha * (1 / np.maximum(x, 1e-9) ** 2 - 1)) - 1) / 2
     kept = np.where(out > 0, (1 + smith(mu)) / (1 + smith(mu) + smith(out)), 0)
-    return float((kept * wall(c, n)).sum() / kept.sum())
+    return float((kept * wall(c, n, specular)).sum() / kept.sum())
 
 
 ROUGHNESSES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
 
 
-def wall_ramp(nodes, cosine, roughness, n):
+def wall_ramp(nodes, cosine, roughness, n, specular):
     """rough_wall() over the cosine, with stops at squares."""
     ramp = nodes.new("ShaderNodeValToRGB")
     nodes.put(ramp.inputs[0], cosine)
@@ -295,22 +296,22 @@ def wall_ramp(nodes, cosine, roughness, n):
     for i in range(32):
         mu = (i / 31) ** 2
         stop = stops[0] if i == 0 else stops[-1] if i == 31 else stops.new(mu)
-        stop.position, stop.color = mu, (*[rough_wall(max(mu, 1e-4), roughness, n)] * 3, 1)
+        stop.position, stop.color = mu, (*[rough_wall(max(mu, 1e-4), roughness, n, specular)] * 3, 1)
     return ramp.outputs[0]
 
 
-def wall_curve(nodes, roughness, n, normal):
+def wall_curve(nodes, roughness, n, specular, normal):
     """rough_wall() of what is looked at, as a socket; of a textured roughness linear between ROUGHNESSES."""
     facing = nodes.new("ShaderNodeLayerWeight", Blend=0.5)
     if normal is not None:
         nodes.put(facing.inputs["Normal"], normal)
     cosine = nodes.math("SUBTRACT", 1.0, facing.outputs["Facing"])
     if isinstance(roughness, float):
-        return wall_ramp(nodes, cosine, roughness, n)
-    out = wall_ramp(nodes, cosine, 0.0, n)
+        return wall_ramp(nodes, cosine, roughness, n, specular)
+    out = wall_ramp(nodes, cosine, 0.0, n, specular)
     for below, above in zip(ROUGHNESSES, ROUGHNESSES[1:]):
         t = nodes.math("DIVIDE", nodes.math("SUBTRACT", roughness, below), above - below, clamp=True)
-        step = nodes.math("SUBTRACT", wall_ramp(nodes, cosine, above, n), out)
+        step = nodes.math("SUBTRACT", wall_ramp(nodes, cosine, above, n, specular), out)
         out = nodes.math("ADD", out, nodes.math("MULTIPLY", t, step))
     return out
 
@@ -328,6 +329,7 @@ def thin_walls(material, definition, macroscopic=False):
         return
     principled = principled_of(material)
     amount, colour = value_of(principled.inputs["Transmission Weight"]), value_of(principled.inputs["Base Color"])
+    specular = (extension(definition, "KHR_materials_specular") or {}).get("specularFactor", 1.0)
     roughness, normal = value_of(principled.inputs["Roughness"]), principled.inputs["Normal"]
     alpha, metallic = value_of(principled.inputs["Alpha"]), value_of(principled.inputs["Metallic"])
     tree = material.node_tree
@@ -341,7 +343,7 @@ def thin_walls(material, definition, macroscopic=False):
     if mapped is not None:
         nodes.put(glossy.inputs["Normal"], mapped)
     if not macroscopic:
-        reflected = wall_curve(nodes, roughness, index, mapped)
+        reflected = wall_curve(nodes, roughness, index, specular, mapped)
     else:
         # the IOR is turned over on back faces by Principled and Fresnel alike; a wall has no inside
         back = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
@@ -349,7 +351,7 @@ def thin_walls(material, definition, macroscopic=False):
         bare = nodes.new("ShaderNodeFresnel", IOR=index)
         if mapped is not None:
             nodes.put(bare.inputs["Normal"], mapped)
-        f = bare.outputs[0]
+        f = nodes.math("MULTIPLY", bare.outputs[0], specular)
         reflected = nodes.math("DIVIDE", nodes.math("MULTIPLY", f, 2.0), nodes.math("ADD", f, 1.0))
     pane = nodes.mix(reflected, nodes.new("ShaderNodeBsdfTransparent", Color=colour).outputs[0], glossy.outputs[0])
     nothing = nodes.new("ShaderNodeBsdfTransparent", Color=(1, 1, 1, 1)).outputs[0]
@@ -369,6 +371,26 @@ def one_sided_emission(material, definition):
     front = nodes.math("SUBTRACT", 1.0, nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"])
     strength = principled.inputs["Emission Strength"]
     nodes.put(strength, nodes.math("MULTIPLY", front, value_of(strength)))
+
+
+def exact_anisotropy(material, definition):
+    """glTF widens alpha along the tangent, mix(alpha, 1, strength^2); Principled divides and multiplies alpha by the root of
+    1 - 0.9 times its own strength. Ratios of up to 10, of factors without textures."""
+    wanted = extension(definition, "KHR_materials_anisotropy")
+    principled = principled_of(material)
+    if not wanted or principled is None or principled.inputs["Roughness"].is_linked or "anisotropyTexture" in wanted:
+        return
+    narrow = principled.inputs["Roughness"].default_value ** 2
+    wide = narrow + (1 - narrow) * wanted.get("anisotropyStrength", 0) ** 2
+    for name in ("Roughness", "Anisotropic", "Anisotropic Rotation", "Tangent"):
+        for link in list(principled.inputs[name].links):
+            material.node_tree.links.remove(link)
+    principled.inputs["Roughness"].default_value = (wide * narrow) ** 0.25
+    principled.inputs["Anisotropic"].default_value = min((1 - narrow / wide) / 0.9, 1.0)
+    principled.inputs["Anisotropic Rotation"].default_value = wanted.get("anisotropyRotation", 0) / (2 * math.pi)
+    tangent = material.node_tree.nodes.new("ShaderNodeTangent")
+    tangent.direction_type = "UV_MAP"
+    material.node_tree.links.new(tangent.outputs[0], principled.inputs["Tangent"])
 
 
 def exact_lights(definitions):

@@ -71,7 +71,7 @@ def main():
             sheet(path, roughness)
             for mu in (0.2, 0.4, 0.7, 0.95):
                 eye = (4 * math.sqrt(max(0, 1 - mu * mu)), 4 * mu, 1e-3)
-                closed = cycles_scene.rough_wall(mu, roughness, 1.5, 1 << 18)
+                closed = cycles_scene.rough_wall(mu, roughness, 1.5, samples=1 << 18)
                 triad = [agreement.render_triad(options, path, world, eye, (0, 0, 0), options.spp, 1).mean() for world in worlds]
                 cycles = [in_cycles(path, worlds[0], eye, options, macroscopic) for macroscopic in (False, True)]
                 wrong += max(abs(triad[0] - closed), abs(1 - triad[1] - closed)) > LIMIT
