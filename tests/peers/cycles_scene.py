@@ -8,6 +8,7 @@ import functools
 import json
 import math
 import os
+import re
 import struct
 import tempfile
 
@@ -48,7 +49,8 @@ class CyclesScene:
         gltf = read_gltf_json(path)
         materials = {m.get("name", ""): m for m in gltf.get("materials", [])}
         for material in bpy.data.materials:
-            definition = materials.get(material.name)
+            # Blender numbers materials of one name, whose extensions are taken to be the same
+            definition = materials.get(material.name) or materials.get(re.sub(r"\.\d{3}$", "", material.name))
             if definition and material.use_nodes:
                 exact_absorption(material, definition)
                 thin_walls(material, definition)
