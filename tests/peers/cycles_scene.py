@@ -265,26 +265,40 @@ def wall(c, n, specular=1.0):
     return 2 * f / (1 + f)
 
 
-@functools.lru_cache(None)
-def rough_wall(mu, roughness, n, specular=1.0, samples=4096):
-    """Share that a wall of GGX microfacets reflects, seen at the cosine mu: the mean of wall() over the normals that are seen from
-    there, each at its own angle, by how much of its reflection leaves."""
+def seen_microfacets(mu, roughness, samples):
+    """From a direction (sin, 0, mu): the angles' cosines at visible normals, the directions that these reflect to, and the shares that leave."""
     alpha = roughness * roughness
-    if alpha < 1e-3:
-        return float(wall(mu, n, specular))
     i = np.arange(samples)
     phi, v = 2 * math.pi * (i * 0.6180339887 % 1), (i + 0.5) / samples
-    o = np.array([alpha * math.sqrt(max(0.0, 1 - mu * mu)), 0.0, mu])
+    eye = np.array([math.sqrt(max(0.0, 1 - mu * mu)), 0.0, mu])
+    o = eye * (alpha, alpha, 1)
     o /= np.linalg.norm(o)
     z = 1 - v * (1 + o[2])  # visible normals by spherical caps: Dupuy and Benyoub 2023
     r = np.sqrt(np.maximum(0, 1 - z * z))
     h = np.stack([alpha * (r * np.cos(phi) + o[0]), alpha * r * np.sin(phi), np.maximum(z + o[2], 1e-9)])
     h /= np.linalg.norm(h, axis=0)
-    c = np.clip(math.sqrt(max(0.0, 1 - mu * mu)) * h[0] + mu * h[2], 0, 1)
-    out = 2 * c * h[2] - mu
+    c = np.clip(eye @ h, 0, 1)
+    out = 2 * c * h - eye[:, None]
     smith = lambda x: (np.sqrt(1 + alpha * alpha * (1 / np.maximum(x, 1e-9) ** 2 - 1)) - 1) / 2
-    kept = np.where(out > 0, (1 + smith(mu)) / (1 + smith(mu) + smith(out)), 0)
+    return c, out, np.where(out[2] > 0, (1 + smith(mu)) / (1 + smith(mu) + smith(out[2])), 0)
+
+
+@functools.lru_cache(None)
+def rough_wall(mu, roughness, n, specular=1.0, samples=4096):
+    """Share that a wall of GGX microfacets reflects, seen at the cosine mu: the mean of wall() over the normals that are seen from
+    there, each at its own angle, by how much of its reflection leaves."""
+    if roughness * roughness < 1e-3:
+        return float(wall(mu, n, specular))
+    c, _, kept = seen_microfacets(mu, roughness, samples)
     return float((kept * wall(c, n, specular)).sum() / kept.sum())
+
+
+def through_wall(mu, roughness, n, samples):
+    """Share that it lets through into the half of directions beyond that goes on away from the eye (not back below it)."""
+    if roughness * roughness < 1e-3:
+        return 1 - float(wall(mu, n))
+    c, out, kept = seen_microfacets(mu, roughness, samples)
+    return float((kept * (1 - wall(c, n)) * (out[0] < 0)).sum() / kept.sum())
 
 
 ROUGHNESSES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)

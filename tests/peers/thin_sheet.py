@@ -5,7 +5,8 @@
 
 The sheet lies in the plane between a white and a black half of the world: seen from the white side it shows what it reflects,
 R; with the halves swapped what it lets through, 1 - R, as the sheet is white. R is the mean of 2F / (1 + F) over the visible
-microfacets (cycles_scene.rough_wall). Exit 1 where Triad is further from it than LIMIT."""
+microfacets (cycles_scene.rough_wall). A third world is white only below and away from the eye, so that what is seen of it says how
+widely the sheet spreads what it lets through. Exit 1 where Triad is further from a closed form than LIMIT."""
 import argparse
 import math
 import os
@@ -24,11 +25,13 @@ from glb import Gltf
 LIMIT = 0.006
 
 
-def half_world(path, above):
-    """White above the horizon, or below it; Radiance, flat."""
-    height, width = 1024, 8
+def part_of_world(path, part):
+    """White above the horizon, below it, or below it where x < 0; Radiance, flat."""
+    height, width = 1024, 1024
     white, black = bytes((128, 128, 128, 129)), bytes(4)
-    rows = [(white if (y < height // 2) == above else black) * width for y in range(height)]
+    filled = {"above": (white * width, black * width), "below": (black * width, white * width),
+              "beyond": (black * width, white * (width // 4) + black * (width // 2) + white * (width // 4))}[part]
+    rows = [filled[y >= height // 2] for y in range(height)]
     with open(path, "wb") as f:
         f.write(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + f"-Y {height} +X {width}\n".encode() + b"".join(rows))
 
@@ -57,15 +60,18 @@ def main():
     parser.add_argument("--triad", default="build/bin/triad")
     parser.add_argument("--spp", type=int, default=1024)
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--without-cycles", action="store_true")
     options = parser.parse_args()
     options.size, agreement.FOV = 16, 1.0
     wrong = 0
-    print("| roughness | cosine | R, closed form | Triad R | Triad 1 - T | Cycles, R of microfacets | Cycles, R of the macroscopic normal |")
-    print("|---|---|---|---|---|---|---|")
+    heads = ["roughness", "cosine", "R, closed form", "Triad R", "Triad 1 - T", "beyond, closed form", "Triad, beyond"]
+    heads += [] if options.without_cycles else ["Cycles, R of microfacets", "Cycles, R of the macroscopic normal"]
+    print("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|")
     with tempfile.TemporaryDirectory() as folder:
-        worlds = [os.path.join(folder, f"{name}.hdr") for name in ("above", "below")]
-        for world, above in zip(worlds, (True, False)):
-            half_world(world, above)
+        parts = ("above", "below", "beyond")
+        worlds = [os.path.join(folder, f"{part}.hdr") for part in parts]
+        for world, part in zip(worlds, parts):
+            part_of_world(world, part)
         for roughness in (0.0, 0.2, 0.5, 0.8):
             path = os.path.join(folder, "sheet.glb")
             sheet(path, roughness)
@@ -73,10 +79,12 @@ def main():
                 eye = (4 * math.sqrt(max(0, 1 - mu * mu)), 4 * mu, 1e-3)
                 closed = cycles_scene.rough_wall(mu, roughness, 1.5, samples=1 << 18)
                 triad = [agreement.render_triad(options, path, world, eye, (0, 0, 0), options.spp, 1).mean() for world in worlds]
-                cycles = [in_cycles(path, worlds[0], eye, options, macroscopic) for macroscopic in (False, True)]
-                wrong += max(abs(triad[0] - closed), abs(1 - triad[1] - closed)) > LIMIT
-                print(f"| {roughness} | {mu} | {closed:.4f} | {triad[0]:.4f} | {1 - triad[1]:.4f} | {cycles[0]:.4f} | {cycles[1]:.4f} |",
-                      flush=True)
+                beyond = cycles_scene.through_wall(mu, roughness, 1.5, 1 << 18)
+                cycles = [] if options.without_cycles else [
+                    in_cycles(path, worlds[0], eye, options, macroscopic) for macroscopic in (False, True)]
+                wrong += max(abs(triad[0] - closed), abs(1 - triad[1] - closed), abs(triad[2] - beyond)) > LIMIT
+                values = [closed, triad[0], 1 - triad[1], beyond, triad[2], *cycles]
+                print(f"| {roughness} | {mu} | " + " | ".join(f"{value:.4f}" for value in values) + " |", flush=True)
     return 1 if wrong else 0
 
 
