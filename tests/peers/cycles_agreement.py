@@ -11,6 +11,7 @@ case, a PNG with Triad, Cycles and the difference (red: Triad is brighter, blue:
 case has more tiles beyond 2 % than its entry in CASES explains.
 """
 import argparse
+import functools
 import json
 import math
 import os
@@ -174,9 +175,13 @@ def main():
     parser.add_argument("--spp-scale", type=float, default=1.0)
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--without-coat", action="store_true", help="control: dielectrics are Lambert's in both")
+    parser.add_argument("--macroscopic-walls", action="store_true",
+                        help="control: rough thin walls in Cycles reflect as their macroscopic normal does")
     parser.add_argument("--keep", action="store_true", help="also write the pictures as .npz")
     options = parser.parse_args()
     os.makedirs(options.out, exist_ok=True)
+    if options.macroscopic_walls:
+        cycles_scene.thin_walls = functools.partial(cycles_scene.thin_walls, macroscopic=True)
     known = {case.name for case in CASES}
     if unknown := set(options.cases) - known:
         parser.error(f"unknown case {sorted(unknown)}; there are {sorted(known)}")

@@ -4,9 +4,11 @@ Blender's importer and its Principled shader differ from glTF in a few places th
 those are put right here, each in a function of its own that says what it changes. What remains is explained in
 docs/agreement.md.
 """
+import functools
 import json
 import math
 import os
+import re
 import struct
 import tempfile
 
@@ -47,11 +49,13 @@ class CyclesScene:
         gltf = read_gltf_json(path)
         materials = {m.get("name", ""): m for m in gltf.get("materials", [])}
         for material in bpy.data.materials:
-            definition = materials.get(material.name)
+            # Blender numbers materials of one name, whose extensions are taken to be the same
+            definition = materials.get(material.name) or materials.get(re.sub(r"\.\d{3}$", "", material.name))
             if definition and material.use_nodes:
                 exact_absorption(material, definition)
                 thin_walls(material, definition)
                 one_sided_emission(material, definition)
+                exact_anisotropy(material, definition)
         punctual = gltf.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
         exact_lights({light.get("name", ""): light for light in punctual})
         for item in self.scene.objects:
@@ -249,11 +253,91 @@ def value_of(socket):
     return value if isinstance(value, float) else tuple(value)
 
 
-def thin_walls(material, definition):
+def fresnel(c, n):
+    """Of a bare face of index n, unpolarised."""
+    g = np.sqrt(n * n - 1 + c * c)
+    return 0.5 * ((g - c) / (g + c)) ** 2 * (1 + ((c * (g + c) - 1) / (c * (g - c) + 1)) ** 2)
+
+
+def wall(c, n, specular=1.0):
+    """What a wall reflects: both faces, and all reflections between them; specular: the factor of KHR_materials_specular."""
+    f = specular * fresnel(c, n)
+    return 2 * f / (1 + f)
+
+
+def seen_microfacets(mu, roughness, samples):
+    """From a direction (sin, 0, mu): the angles' cosines at visible normals, the directions that these reflect to, and the shares that leave."""
+    alpha = roughness * roughness
+    i = np.arange(samples)
+    phi, v = 2 * math.pi * (i * 0.6180339887 % 1), (i + 0.5) / samples
+    eye = np.array([math.sqrt(max(0.0, 1 - mu * mu)), 0.0, mu])
+    o = eye * (alpha, alpha, 1)
+    o /= np.linalg.norm(o)
+    z = 1 - v * (1 + o[2])  # visible normals by spherical caps: Dupuy and Benyoub 2023
+    r = np.sqrt(np.maximum(0, 1 - z * z))
+    h = np.stack([alpha * (r * np.cos(phi) + o[0]), alpha * r * np.sin(phi), np.maximum(z + o[2], 1e-9)])
+    h /= np.linalg.norm(h, axis=0)
+    c = np.clip(eye @ h, 0, 1)
+    out = 2 * c * h - eye[:, None]
+    smith = lambda x: (np.sqrt(1 + alpha * alpha * (1 / np.maximum(x, 1e-9) ** 2 - 1)) - 1) / 2
+    return c, out, np.where(out[2] > 0, (1 + smith(mu)) / (1 + smith(mu) + smith(out[2])), 0)
+
+
+@functools.lru_cache(None)
+def rough_wall(mu, roughness, n, specular=1.0, samples=4096):
+    """Share that a wall of GGX microfacets reflects, seen at the cosine mu: the mean of wall() over the normals that are seen from
+    there, each at its own angle, by how much of its reflection leaves."""
+    if roughness * roughness < 1e-3:
+        return float(wall(mu, n, specular))
+    c, _, kept = seen_microfacets(mu, roughness, samples)
+    return float((kept * wall(c, n, specular)).sum() / kept.sum())
+
+
+def through_wall(mu, roughness, n, samples):
+    """Share that it lets through into the half of directions beyond that goes on away from the eye (not back below it)."""
+    if roughness * roughness < 1e-3:
+        return 1 - float(wall(mu, n))
+    c, out, kept = seen_microfacets(mu, roughness, samples)
+    return float((kept * (1 - wall(c, n)) * (out[0] < 0)).sum() / kept.sum())
+
+
+ROUGHNESSES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.65, 0.8, 1.0)
+
+
+def wall_ramp(nodes, cosine, roughness, n, specular):
+    """rough_wall() over the cosine, with stops at squares."""
+    ramp = nodes.new("ShaderNodeValToRGB")
+    nodes.put(ramp.inputs[0], cosine)
+    stops = ramp.color_ramp.elements
+    for i in range(32):
+        mu = (i / 31) ** 2
+        stop = stops[0] if i == 0 else stops[-1] if i == 31 else stops.new(mu)
+        stop.position, stop.color = mu, (*[rough_wall(max(mu, 1e-4), roughness, n, specular)] * 3, 1)
+    return ramp.outputs[0]
+
+
+def wall_curve(nodes, roughness, n, specular, normal):
+    """rough_wall() of what is looked at, as a socket; of a textured roughness linear between ROUGHNESSES."""
+    facing = nodes.new("ShaderNodeLayerWeight", Blend=0.5)
+    if normal is not None:
+        nodes.put(facing.inputs["Normal"], normal)
+    cosine = nodes.math("SUBTRACT", 1.0, facing.outputs["Facing"])
+    if isinstance(roughness, float):
+        return wall_ramp(nodes, cosine, roughness, n, specular)
+    out = wall_ramp(nodes, cosine, 0.0, n, specular)
+    for below, above in zip(ROUGHNESSES, ROUGHNESSES[1:]):
+        t = nodes.math("DIVIDE", nodes.math("SUBTRACT", roughness, below), above - below, clamp=True)
+        step = nodes.math("SUBTRACT", wall_ramp(nodes, cosine, above, n, specular), out)
+        out = nodes.math("ADD", out, nodes.math("MULTIPLY", t, step))
+    return out
+
+
+def thin_walls(material, definition, macroscopic=False):
     """Without KHR_materials_volume, transmission is that of a thin wall; Principled would refract into a body.
 
     A smooth wall of index n reflects R = 2F / (1 + F), F the Fresnel term of one face, and lets the rest through
-    unbent, times the base colour. Mixed with the material without transmission by the transmission's texture.
+    unbent, times the base colour. A rough one reflects the mean of R over its microfacets; with `macroscopic` R of its
+    macroscopic normal stands in. Mixed with the material without transmission by the transmission's texture.
     """
     transmission = extension(definition, "KHR_materials_transmission")
     volume = extension(definition, "KHR_materials_volume") or {}
@@ -261,6 +345,7 @@ def thin_walls(material, definition):
         return
     principled = principled_of(material)
     amount, colour = value_of(principled.inputs["Transmission Weight"]), value_of(principled.inputs["Base Color"])
+    specular = (extension(definition, "KHR_materials_specular") or {}).get("specularFactor", 1.0)
     roughness, normal = value_of(principled.inputs["Roughness"]), principled.inputs["Normal"]
     alpha, metallic = value_of(principled.inputs["Alpha"]), value_of(principled.inputs["Metallic"])
     tree = material.node_tree
@@ -268,22 +353,27 @@ def thin_walls(material, definition):
         tree.links.remove(link)
     principled.inputs["Transmission Weight"].default_value = 0.0
     nodes = Nodes(tree)
-    # the IOR is turned over on back faces by Principled and Fresnel alike; a wall has no inside
-    back = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
     index = principled.inputs["IOR"].default_value
-    index = nodes.math("POWER", index, nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", back, 2.0)))
-    fresnel = nodes.new("ShaderNodeFresnel", IOR=index)
     glossy = nodes.new("ShaderNodeBsdfAnisotropic", Roughness=roughness, Color=(1, 1, 1, 1))
-    if normal.is_linked:
-        nodes.put(fresnel.inputs["Normal"], value_of(normal))
-        nodes.put(glossy.inputs["Normal"], value_of(normal))
-    f = fresnel.outputs[0]
-    reflected = nodes.math("DIVIDE", nodes.math("MULTIPLY", f, 2.0), nodes.math("ADD", f, 1.0))
-    wall = nodes.mix(reflected, nodes.new("ShaderNodeBsdfTransparent", Color=colour).outputs[0], glossy.outputs[0])
+    mapped = value_of(normal) if normal.is_linked else None
+    if mapped is not None:
+        nodes.put(glossy.inputs["Normal"], mapped)
+    if not macroscopic:
+        reflected = wall_curve(nodes, roughness, index, specular, mapped)
+    else:
+        # the IOR is turned over on back faces by Principled and Fresnel alike; a wall has no inside
+        back = nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"]
+        index = nodes.math("POWER", index, nodes.math("SUBTRACT", 1.0, nodes.math("MULTIPLY", back, 2.0)))
+        bare = nodes.new("ShaderNodeFresnel", IOR=index)
+        if mapped is not None:
+            nodes.put(bare.inputs["Normal"], mapped)
+        f = nodes.math("MULTIPLY", bare.outputs[0], specular)
+        reflected = nodes.math("DIVIDE", nodes.math("MULTIPLY", f, 2.0), nodes.math("ADD", f, 1.0))
+    pane = nodes.mix(reflected, nodes.new("ShaderNodeBsdfTransparent", Color=colour).outputs[0], glossy.outputs[0])
     nothing = nodes.new("ShaderNodeBsdfTransparent", Color=(1, 1, 1, 1)).outputs[0]
-    wall = nodes.mix(alpha, nothing, wall)  # the material's own coverage
+    pane = nodes.mix(alpha, nothing, pane)  # the material's own coverage
     share = nodes.math("MULTIPLY", amount, nodes.math("SUBTRACT", 1.0, metallic))
-    mixed = nodes.mix(share, principled.outputs[0], wall)
+    mixed = nodes.mix(share, principled.outputs[0], pane)
     output = next(n for n in tree.nodes if n.type == "OUTPUT_MATERIAL")
     tree.links.new(mixed, output.inputs["Surface"])
 
@@ -297,6 +387,26 @@ def one_sided_emission(material, definition):
     front = nodes.math("SUBTRACT", 1.0, nodes.new("ShaderNodeNewGeometry").outputs["Backfacing"])
     strength = principled.inputs["Emission Strength"]
     nodes.put(strength, nodes.math("MULTIPLY", front, value_of(strength)))
+
+
+def exact_anisotropy(material, definition):
+    """glTF widens alpha along the tangent, mix(alpha, 1, strength^2); Principled divides and multiplies alpha by the root of
+    1 - 0.9 times its own strength. Ratios of up to 10, of factors without textures."""
+    wanted = extension(definition, "KHR_materials_anisotropy")
+    principled = principled_of(material)
+    if not wanted or principled is None or principled.inputs["Roughness"].is_linked or "anisotropyTexture" in wanted:
+        return
+    narrow = principled.inputs["Roughness"].default_value ** 2
+    wide = narrow + (1 - narrow) * wanted.get("anisotropyStrength", 0) ** 2
+    for name in ("Roughness", "Anisotropic", "Anisotropic Rotation", "Tangent"):
+        for link in list(principled.inputs[name].links):
+            material.node_tree.links.remove(link)
+    principled.inputs["Roughness"].default_value = (wide * narrow) ** 0.25
+    principled.inputs["Anisotropic"].default_value = min((1 - narrow / wide) / 0.9, 1.0)
+    principled.inputs["Anisotropic Rotation"].default_value = wanted.get("anisotropyRotation", 0) / (2 * math.pi)
+    tangent = material.node_tree.nodes.new("ShaderNodeTangent")
+    tangent.direction_type = "UV_MAP"
+    material.node_tree.links.new(tangent.outputs[0], principled.inputs["Tangent"])
 
 
 def exact_lights(definitions):
