@@ -1,5 +1,6 @@
 #include "tinybvh_tracer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
