@@ -80,8 +80,8 @@ TRIAD_FUNCTION float energy_scale(const Bsdf* b, uint event) {
 /* Energy of samples [part * each, min(samples, (part + 1) * each)) of a case: out = (r, g, b, transmission),
  * (largest |eval - weight pdf| / value, NaNs, largest weight, samples that are not unit or on the wrong side). */
 __kernel void furnace(__global Vec4* out, __global const Case* cases, __global const float* tables, uint samples,
-                      uint each, uint parts, uint count) {
-    const uint item = get_global_id(0), i = item / parts, first = item % parts * each;
+                      uint each, uint parts, uint first_case, uint count) {
+    const uint item = get_global_id(0), i = first_case + item / parts, first = item % parts * each;
     if (item >= count) return;
     Bsdf b;
     const Vec3 wo = make(cases + i, &b, tables);
@@ -204,15 +204,29 @@ constexpr std::size_t integral_parts = 32;
 
 /// Of one item: llvmpipe ends an item's loops after 65,535 rounds in all, and a GPU has other items to run.
 constexpr std::uint32_t furnace_samples_of_an_item = 256;
+/// A device that answers late is taken for one that hangs.
+constexpr std::size_t furnace_samples_of_a_launch = 1u << 20;
 
 /// Means over samples.
 inline std::vector<Furnace> furnace(Check& check, const std::vector<Case>& cases, std::uint32_t samples,
                                     const Options& options = {}) {
     const std::uint32_t each = furnace_samples_of_an_item, parts = (samples + each - 1) / each;
-    const auto all = run_kernel<Furnace>(
-        check.device, source, "furnace",
-        Arguments().add(check.device.upload(cases)).add(tables(check)).add(samples).add(each).add(parts),
-        cases.size() * parts, 1, options);
+    const std::size_t most = std::max<std::size_t>(1, furnace_samples_of_a_launch / samples);
+    const Buffer all_cases = check.device.upload(cases), all_tables = tables(check);
+    std::vector<Furnace> all;
+    for (std::size_t first = 0; first < cases.size(); first += most) {
+        const std::size_t count = std::min(most, cases.size() - first);
+        const auto some = run_kernel<Furnace>(check.device, source, "furnace",
+                                              Arguments()
+                                                  .add(all_cases)
+                                                  .add(all_tables)
+                                                  .add(samples)
+                                                  .add(each)
+                                                  .add(parts)
+                                                  .add(std::uint32_t(first)),
+                                              count * parts, 1, options);
+        all.insert(all.end(), some.begin(), some.end());
+    }
     std::vector<Furnace> means;
     for (std::size_t i = 0; i < cases.size(); ++i) {
         double sums[4] = {};

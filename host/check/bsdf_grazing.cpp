@@ -234,7 +234,7 @@ void add_bsdf_grazing(std::vector<CheckCase>& cases) {
     using enum CheckLevel;
     cases.insert(cases.end(),
                  {
-                     {"C8b", "grazing sheen", standard, grazing_sheen},
+                     {"C8g", "grazing sheen", standard, grazing_sheen},
                      {"C8c", "grazing varnish", standard, grazing_varnish},
                      {"C8d", "grazing stretched metal", standard, grazing_stretched_metal},
                      {"C8e", "grazing thin films", standard, grazing_film},

@@ -49,7 +49,7 @@ inline const Fault faults[] = {
      "1.0f - colour_largest(b.sheen.colour) * b.sheen.albedo", "1.0f", "F12"},
     {"sheen_masking_of_one_half", "shading/sheen.h", "if (c < 0.5f) return", "if (c <= 1.0f) return", "F12"},
     {"sheen_at_the_horizon_without_bound", "shading/sheen.h", "{ return math_max(c, SHEEN_MIN_COSINE); }",
-     "{ return c; }", "C8b"},
+     "{ return c; }", "C8g"},
     {"strength_not_squared", "shading/base_make.h", "math_square(in->anisotropy)", "in->anisotropy", "F13"},
     {"stretched_the_other_way_by_the_sampler", "shading/ggx.h",
      "alpha_x * fma(r, c, w.x), alpha_y * fma(r, s, w.y)",
