@@ -15,6 +15,7 @@ kernel void count_work(SCENE_PARAMETERS PARAMETERS(COUNT_WORK_LIST)) {
     const Frame local_frame = *frame;
     const uint pixel = first_pixel + (uint)item;
     Tally tally = tally_start();
+    tally.edges = edges;
     for (uint i = 0u; i < sample_count; ++i) {
         const CameraSample sample =
             camera_sample(&scene, &local_frame, pixel % local_frame.crop[2], pixel / local_frame.crop[2], i);
@@ -22,10 +23,4 @@ kernel void count_work(SCENE_PARAMETERS PARAMETERS(COUNT_WORK_LIST)) {
         mega_follow(&scene, &path, &tally);
     }
     work[pixel] = tally.work;
-    for (uint i = 0u; i < WORK_EDGES; ++i) {
-        volatile global EdgeWork* sum = edges + i;
-        atomic_add(&sum->rays, tally.edges[i].rays);
-        atomic_add(&sum->hits, tally.edges[i].hits);
-        atomic_add(&sum->shadow_rays, tally.edges[i].shadow_rays);
-    }
 }

@@ -24,8 +24,8 @@ typedef struct Tally {
 #if TRIAD_COUNT_WORK
     RayWork ray; /* of the present ray */
     PixelWork work;
-    EdgeWork edges[WORK_EDGES];
-    uint edge; /* that the last ray followed, or ended at */
+    volatile global EdgeWork* edges; /* WORK_EDGES of them, of all items */
+    uint edge;                       /* that the last ray followed, or ended at */
 #endif
 } Tally;
 
@@ -47,9 +47,9 @@ TRIAD_FUNCTION void work_count(Tally* t, uint kind) {
     sum->deepest_sum += t->ray.deepest;
     sum->deepest = max(sum->deepest, t->ray.deepest);
     if (kind == WORK_SHADOW)
-        ++t->edges[t->edge].shadow_rays;
+        atomic_inc(&t->edges[t->edge].shadow_rays);
     else
-        ++t->edges[t->edge].rays;
+        atomic_inc(&t->edges[t->edge].rays);
     t->ray = work_none();
 }
 
@@ -68,7 +68,7 @@ TRIAD_FUNCTION Tally tally_start(void) {
     t.ray = work_none();
     for (uint kind = 0u; kind < WORK_KINDS; ++kind) t.work.rays[kind] = work_none();
     t.work.vertices = t.work.unused = t.edge = 0u;
-    for (uint i = 0u; i < WORK_EDGES; ++i) t.edges[i].rays = t.edges[i].hits = t.edges[i].shadow_rays = 0u;
+    t.edges = 0; /* count.cl sets it */
 #endif
     return t;
 }
