@@ -13,9 +13,9 @@ struct Rule {
     Kind kind;
     const char* of = "";                                   ///< index: the array, as a path
     bool required = false;                                 ///< when the object that should hold it exists
-    double lo = -std::numeric_limits<double>::infinity();  ///< integer, number: the least; numbers: the length;
-                                                           ///< arrays: the least length
-    double hi = std::numeric_limits<double>::infinity();   ///< integer, number: the most; arrays: the length
+    double lo = -std::numeric_limits<double>::infinity();  ///< integer, number: the least; numbers: the
+                                                           ///< length; arrays: the least length
+    double hi = std::numeric_limits<double>::infinity();  ///< integer, number: the most; arrays: the length
 };
 
 /// What must hold before anything else is worth a look.

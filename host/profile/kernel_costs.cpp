@@ -48,7 +48,7 @@ std::optional<KernelCost> cost_of(const std::string& kernel, const WorkCounts& c
                                   double samples) {
     const double counted = double(counts.width) * counts.height * counts.samples;
     if (!(counted > 0)) return {};
-    const double scale = samples / counted, vertices = double(counts.vertices) * scale;
+    const double scale = samples / counted, vertices = double(counts.vertices()) * scale;
     const Format shape = shape_of(format);
     const Work shadow = walks(counts.rays[WORK_SHADOW], shape) * scale,
                edges =

@@ -233,7 +233,7 @@ Json devices_of(const std::vector<Profile>& profiles) {
              {"seconds_of_runs", p.seconds_of_runs},
              {"queue", {{"busy_s", p.busy}, {"waiting_s", p.waiting}, {"host_s", p.host_between}}},
              {"counted_samples_per_pixel", p.counts.samples},
-             {"vertices", p.counts.vertices},
+             {"vertices", p.counts.vertices()},
              {"rays", rays},
              {"edges", edges},
              {"peaks", {{"gflops", 1e-9 * p.peaks.flops}, {"memory", peaks}}},

@@ -16,7 +16,7 @@ std::string text_of(const WorkCounts& counts) {
     return json{{"width", counts.width},
                 {"height", counts.height},
                 {"samples", counts.samples},
-                {"vertices", counts.vertices},
+
                 {"rays", rays},
                 {"edges", edges}}
         .dump();
@@ -28,7 +28,6 @@ WorkCounts work_counts_of(const std::string& text) {
         WorkCounts counts;
         counts.width = all.at("width").get<unsigned>(), counts.height = all.at("height").get<unsigned>();
         counts.samples = all.at("samples").get<unsigned>();
-        counts.vertices = all.at("vertices").get<std::uint64_t>();
         for (std::size_t i = 0; i < counts.rays.size(); ++i) {
             const json& r = all.at("rays").at(i);
             const auto number = [&](std::size_t k) { return r.at(k).get<std::uint64_t>(); };

@@ -31,6 +31,12 @@ RayCounts WorkCounts::all() const {
     return sum;
 }
 
+std::uint64_t WorkCounts::vertices() const {
+    std::uint64_t sum = 0;
+    for (const EdgeCounts& edge : edges) sum += edge.hits;
+    return sum;
+}
+
 WorkCounts count_work(Tracer& tracer, unsigned samples) {
     Device& device = tracer.device();
     const Kernel kernel = device.build(program_of(tracer.settings(), "count"), options_of(tracer.features()))
@@ -62,7 +68,6 @@ WorkCounts count_work(Tracer& tracer, unsigned samples) {
             add(counts.rays[kind], pixel.rays[kind]);
             visits += pixel.rays[kind].nodes + pixel.rays[kind].blocks;
         }
-        counts.vertices += pixel.vertices;
         counts.visits.push_back(visits);
     }
     const std::vector<dev::EdgeWork> edges = device.download<dev::EdgeWork>(own.edges);

@@ -27,10 +27,10 @@ struct WorkCounts {
     unsigned width = 0, height = 0, samples = 0;  ///< of the crop; per pixel
     std::array<RayCounts, WORK_KINDS> rays;
     std::array<EdgeCounts, WORK_EDGES> edges;  ///< from the camera's on; the last has all later ones
-    std::uint64_t vertices = 0;                ///< ends of edges that hit something
     std::vector<std::uint32_t> visits;  ///< nodes and leaves, of every pixel's samples together, row by row
 
     RayCounts all() const;
+    std::uint64_t vertices() const;  ///< ends of edges that hit something
 };
 
 /// Samples of each pixel whose work is counted where nothing but their mean is used.

@@ -78,11 +78,11 @@ TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Ver
             1.0f / (path->pdf * light_triangle_inverse_pdf(&light, 1.0f / (vertex->hit.t * vertex->hit.t),
                                                            vec3_dot(vertex->ng, vertex->wo))));
     }
-    Vec3 emitted = surface_emission(scene, material, s->uv0, s->uv1);
 #if TRIAD_CLEARCOAT
-    emitted = vec3_scale(emitted, coat_emission(scene, s, vertex->wo, vertex->ng, vertex->back));
+    weight *= coat_emission(scene, s, vertex->wo, vertex->ng, vertex->back);
 #endif
-    const Colour radiance = path_light(scene, &path->colours, found->flags, emitted);
+    const Colour radiance =
+        path_light(scene, &path->colours, found->flags, surface_emission(scene, material, s->uv0, s->uv1));
     path_finds(path, colour_scale(colour_mul(path->throughput, radiance), weight), tally);
 #else
     (void)scene, (void)path, (void)vertex, (void)lit, (void)tally;

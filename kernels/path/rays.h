@@ -49,7 +49,7 @@ TRIAD_FUNCTION Hit path_closest(const Scene* scene, const PathState* path, Tally
     const Hit hit = rays_closest(scene, path->ray, path_ray_name(path), tally);
     work_count(tally, path->edge == 1u ? WORK_CAMERA : WORK_BOUNCE);
 #if TRIAD_COUNT_WORK
-    if (hit.primitive != TRIAD_NONE) ++tally->work.vertices, atomic_inc(&tally->edges[tally->edge].hits);
+    if (hit.primitive != TRIAD_NONE) atomic_inc(&tally->edges[tally->edge].hits);
 #endif
     return hit;
 }

@@ -67,7 +67,7 @@ TRIAD_FUNCTION Tally tally_start(void) {
 #if TRIAD_COUNT_WORK
     t.ray = work_none();
     for (uint kind = 0u; kind < WORK_KINDS; ++kind) t.work.rays[kind] = work_none();
-    t.work.vertices = t.work.unused = t.edge = 0u;
+    t.edge = 0u;
     t.edges = 0; /* count.cl sets it */
 #endif
     return t;

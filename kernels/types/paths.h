@@ -113,13 +113,11 @@ typedef struct RayWork {
 } RayWork;
 TRIAD_SIZE(RayWork, 24);
 
-/* Of the samples of a pixel. A vertex is the end of an edge that hit something. */
+/* Of the samples of a pixel. */
 typedef struct PixelWork {
     RayWork rays[WORK_KINDS];
-    uint vertices;
-    uint unused;
 } PixelWork;
-TRIAD_SIZE(PixelWork, 80);
+TRIAD_SIZE(PixelWork, 72);
 
 /* Of an edge of all paths, counted from the camera's: how long the lists of a wave would be. */
 typedef struct EdgeWork {

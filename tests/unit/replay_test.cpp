@@ -155,8 +155,8 @@ TEST(ProfileRows, know_how_many_items_had_work) {
 
 TEST(WorkJson, comes_back_as_it_was_and_damage_is_told) {
     WorkCounts counts;
-    counts.width = 3, counts.height = 2, counts.samples = 4, counts.vertices = 1ull << 40;
-    counts.rays[WORK_SHADOW] = {1, 2, 3, 4, 5, 6};
+    counts.width = 3, counts.height = 2, counts.samples = 4;
+    counts.rays[WORK_SHADOW] = {1ull << 40, 2, 3, 4, 5, 6};
     counts.edges[WORK_EDGES - 1] = {7, 8, 9};
     const std::string text = text_of(counts);
     EXPECT_EQ(text_of(work_counts_of(text)), text);
