@@ -1,6 +1,7 @@
 #include "base/shell_limits.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -57,12 +58,19 @@ void end_before_main() { end("Triad's libraries cannot start within what the she
 
 std::terminate_handler ordinary_end = nullptr;
 
+bool is_memory_limited() {
+    rlimit memory{};
+    return ::getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY;
+}
+
 }  // namespace
 
 std::string shell_limits() { return limits_in_force().characters; }
 
 void heed_shell_limits() {
     ordinary_end = std::set_terminate(end_before_main);
+    // OpenImageIO's table of names is allocated before main, and used unchecked.
+    if (is_memory_limited()) ::signal(SIGSEGV, [](int) { end_before_main(); });
     rlimit stack{};
     if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= usual_stack) return;
     // The main thread's grows up to what is allowed when it grows; those of others are set when they start.
@@ -76,6 +84,9 @@ void heed_shell_limits() {
     ::pthread_attr_destroy(&attributes);
 }
 
-void libraries_have_started() { std::set_terminate(ordinary_end); }
+void libraries_have_started() {
+    std::set_terminate(ordinary_end);
+    if (is_memory_limited()) ::signal(SIGSEGV, SIG_DFL);
+}
 
 }  // namespace triad

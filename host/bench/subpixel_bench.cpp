@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/text.h"
-#include "metric/tile_metric.h"
+#include "panel/tile_metric.h"
 
 namespace triad {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "bench/subpixel_source.h"
-#include "metric/subpixel_score.h"
+#include "panel/subpixel_score.h"
 
 namespace triad {
 

@@ -16,7 +16,6 @@ std::string text_of(const WorkCounts& counts) {
     return json{{"width", counts.width},
                 {"height", counts.height},
                 {"samples", counts.samples},
-
                 {"rays", rays},
                 {"edges", edges}}
         .dump();

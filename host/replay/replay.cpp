@@ -157,6 +157,7 @@ Exit replay(const ReplayRequest& o) {
     check_paths(o);
     const Json before = o.against.empty() ? Json() : earlier_report(o.against);
     Capture capture = read_capture(o.capture);
+    const std::optional<WorkCounts> counted = counted_work(capture);
     const Lines lines(o.json != "-");
     if (!o.extract.empty()) {
         extract(capture.work.sources, o.extract);
@@ -198,7 +199,7 @@ Exit replay(const ReplayRequest& o) {
         Profile p = o.kernel.empty() ? profile_of(replayer, o.repeat) : measured_alone(replayer, o, lines);
         if (o.kernel.empty()) require_same(replayer, film);
         if (o.tune) more.update(tune(replayer, film, o.repeat, lines));
-        add_roof(p, replayer);
+        if (counted) add_costs(p, *counted, peaks_of(device));
         is_slower = report(p, o, before, more, lines);
     }
     if (!verification.ok) throw Error(Exit::comparison, verification.sentence);

@@ -81,9 +81,9 @@ Profile profile_alone(Replayer& replayer, std::size_t place, unsigned times) {
     return p;
 }
 
-void add_roof(Profile& profile, const Replayer& replayer) {
-    const std::string& counted = replayer.capture().counted;
-    if (!counted.empty()) add_costs(profile, work_counts_of(counted), peaks_of(replayer.device()));
+std::optional<WorkCounts> counted_work(const Capture& capture) {
+    if (capture.counted.empty()) return {};
+    return work_counts_of(capture.counted);
 }
 
 }  // namespace triad

@@ -1,6 +1,8 @@
 #pragma once
 /// A profile of replayed work, of which triad-replay makes the tables, the JSON and the page that triad
 /// profile makes.
+#include <optional>
+
 #include "profile/profile.h"
 #include "replay/replayer.h"
 
@@ -12,8 +14,8 @@ Profile profile_of(Replayer& replayer, unsigned runs, const LocalSizes& sizes = 
 /// Of launch `place` alone, so often.
 Profile profile_alone(Replayer& replayer, std::size_t place, unsigned times);
 
-/// Measures the device's roof, and adds what the capture says that was counted; nothing where it says
-/// nothing.
-void add_roof(Profile& profile, const Replayer& replayer);
+/// What rays took where the work was captured; none where the capture does not say. Throws Error(scene) where
+/// that is damaged.
+std::optional<WorkCounts> counted_work(const Capture& capture);
 
 }  // namespace triad

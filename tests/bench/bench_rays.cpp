@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -99,12 +101,12 @@ struct Peers {
     std::vector<std::pair<std::string, std::unique_ptr<TinybvhTracer>>> tinybvh;
 };
 
-/// Of a tracer on the same device, in turns with Triad.
-struct Rival {
-    std::string name;
-    TinybvhTracer* tracer;
-    std::vector<double> seconds;
-};
+template <class Pass>
+double seconds_of(const Pass& pass) {
+    const double start = now();
+    pass();
+    return now() - start;
+}
 
 /// Of distances: its kernels use products that round otherwise.
 std::size_t count_differences(const std::vector<float>& theirs, const std::vector<dev::Hit>& ours,
@@ -118,87 +120,90 @@ std::size_t count_differences(const std::vector<float>& theirs, const std::vecto
     return differences;
 }
 
+/// Tracers in turns: what each does in a round, with how many seconds it took.
+using Race = std::vector<std::pair<std::string, std::function<double()>>>;
+
+std::map<std::string, std::vector<double>> run_race(const Race& race, unsigned rounds) {
+    std::map<std::string, std::vector<double>> seconds;
+    for (unsigned round = 0; round < rounds; ++round)
+        for (const auto& [name, pass] : race) seconds[name].push_back(pass());
+    return seconds;
+}
+
+/// How many rays Embree answers otherwise. Throws where that is more than its own: robust Embree is
+/// conservative at edges, some tens in a million.
+std::size_t differences_to_embree(const RayScene& scene, const std::string& kind, TreeTracer& tracer,
+                                  const std::vector<dev::Hit>& hits,
+                                  const std::vector<std::uint32_t>& occluded) {
+    std::size_t differences = 0;
+    if (kind == "shadow") {
+        const auto ours = tracer.occluded();
+        for (std::size_t i = 0; i < ours.size(); ++i) differences += ours[i] != occluded[i];
+    } else {
+        differences = count_differences(tracer.hits(), hits, scene.reach);
+    }
+    if (double(differences) > 1e-4 * double(hits.size()))
+        throw Error(Exit::comparison, "Triad and Embree disagree on " + std::to_string(differences) + " of " +
+                                          std::to_string(hits.size()) + " " + kind + " rays of " +
+                                          scene.name + ": no speed is reported for wrong answers.");
+    return differences;
+}
+
+void print(const nlohmann::json& row, const Peers& peers) {
+    const auto number = [&](const std::string& name) { return row[name].get<double>(); };
+    std::printf("%-10s %-8s %8.2f", row["scene"].get<std::string>().c_str(),
+                row["kind"].get<std::string>().c_str(), number("triad_mrays"));
+    if (peers.plain)
+        std::printf(" %8.2f %8.2f %8.3f %8.3f %6zu", number("embree_mrays"), number("embree_robust_mrays"),
+                    number("ratio"), number("ratio_robust"), row["differences"].get<std::size_t>());
+    for (const auto& [name, peer] : peers.tinybvh)
+        if (row.contains(name + "_mrays"))
+            std::printf("  %s %.2f, ratio %.3f, %zu differ", name.c_str(), number(name + "_mrays"),
+                        number("ratio_" + name), row[name + "_differences"].get<std::size_t>());
+    std::printf("\n");
+    std::fflush(stdout);
+}
+
 nlohmann::json measure(const RayScene& scene, const std::string& kind, const std::vector<dev::Ray>& rays,
                        TreeTracer& tracer, const Peers& peers, unsigned rounds) {
     const bool occlusion = kind == "shadow";
+    nlohmann::json row{{"scene", scene.name},
+                       {"triangles", scene.mesh.triangles.size()},
+                       {"kind", kind},
+                       {"rays", rays.size()}};
     tracer.set_rays(rays);
-    const auto traced = [&] {
-        const double start = now();
-        tracer.trace(occlusion);
-        return now() - start;
-    };
-    traced();
+    tracer.trace(occlusion);
+    Race race{{"triad", [&] { return seconds_of([&] { tracer.trace(occlusion); }); }}};
     std::vector<dev::Hit> hits(rays.size());
     std::vector<std::uint32_t> occluded(rays.size());
     const auto embree = [&](const EmbreeTracer& peer) {
         return occlusion ? peer.occluded(rays, occluded) : peer.closest(rays, hits);
     };
-    nlohmann::json row{{"scene", scene.name},
-                       {"triangles", scene.mesh.triangles.size()},
-                       {"kind", kind},
-                       {"rays", rays.size()}};
     if (peers.plain) {
         embree(*peers.robust);
-        std::size_t differences = 0;
-        if (occlusion) {
-            const auto ours = tracer.occluded();
-            for (std::size_t i = 0; i < rays.size(); ++i) differences += ours[i] != occluded[i];
-        } else {
-            differences = count_differences(tracer.hits(), hits, scene.reach);
-        }
-        row["differences"] = differences;
-        // Robust Embree is conservative at edges: some tens in a million are its own.
-        if (double(differences) > 1e-4 * double(rays.size()))
-            throw Error(Exit::comparison, "Triad and Embree disagree on " + std::to_string(differences) +
-                                              " of " + std::to_string(rays.size()) + " " + kind +
-                                              " rays of " + scene.name +
-                                              ": no speed is reported for wrong answers.");
+        row["differences"] = differences_to_embree(scene, kind, tracer, hits, occluded);
+        race.emplace_back("embree", [&] { return embree(*peers.plain); });
+        race.emplace_back("embree_robust", [&] { return embree(*peers.robust); });
     }
-    std::vector<Rival> rivals;
     if (!occlusion)
         for (const auto& [name, peer] : peers.tinybvh) {
             peer->set_rays(rays), peer->trace();
             row[name + "_differences"] = count_differences(peer->distances(), tracer.hits(), scene.reach);
-            rivals.push_back({name, peer.get(), {}});
+            race.emplace_back(name, [&rival = *peer] { return seconds_of([&] { rival.trace(); }); });
         }
-    std::vector<double> triad, plain, robust;
-    for (unsigned round = 0; round < rounds; ++round) {
-        triad.push_back(traced());
-        for (Rival& rival : rivals) {
-            const double start = now();
-            rival.tracer->trace();
-            rival.seconds.push_back(now() - start);
-        }
-        if (!peers.plain) continue;
-        plain.push_back(embree(*peers.plain));
-        robust.push_back(embree(*peers.robust));
-    }
-    const auto report = [&](const std::string& name, const std::vector<double>& seconds) {
+    for (const auto& [name, seconds] : run_race(race, rounds)) {
         const double mega = double(rays.size()) * 1e-6;
         row[name + "_mrays"] = mega / *std::min_element(seconds.begin(), seconds.end());
         row[name + "_mrays_median"] = mega / median(seconds);
-    };
-    report("triad", triad);
-    std::printf("%-10s %-8s %8.2f", scene.name.c_str(), kind.c_str(), row["triad_mrays"].get<double>());
-    if (peers.plain) {
-        report("embree", plain);
-        report("embree_robust", robust);
-        row["ratio"] = row["triad_mrays"].get<double>() / row["embree_mrays"].get<double>();
-        row["ratio_robust"] = row["triad_mrays"].get<double>() / row["embree_robust_mrays"].get<double>();
-        std::printf(" %8.2f %8.2f %8.3f %8.3f %6zu", row["embree_mrays"].get<double>(),
-                    row["embree_robust_mrays"].get<double>(), row["ratio"].get<double>(),
-                    row["ratio_robust"].get<double>(), row["differences"].get<std::size_t>());
     }
-    for (const Rival& rival : rivals) {
-        report(rival.name, rival.seconds);
-        row["ratio_" + rival.name] =
-            row["triad_mrays"].get<double>() / row[rival.name + "_mrays"].get<double>();
-        std::printf("  %s %.2f, ratio %.3f, %zu differ", rival.name.c_str(),
-                    row[rival.name + "_mrays"].get<double>(), row["ratio_" + rival.name].get<double>(),
-                    row[rival.name + "_differences"].get<std::size_t>());
+    for (const auto& [name, pass] : race) {
+        const std::string ratio = name == "embree"          ? "ratio"
+                                  : name == "embree_robust" ? "ratio_robust"
+                                                            : "ratio_" + name;
+        if (name != "triad")
+            row[ratio] = row["triad_mrays"].get<double>() / row[name + "_mrays"].get<double>();
     }
-    std::printf("\n");
-    std::fflush(stdout);
+    print(row, peers);
     return row;
 }
 

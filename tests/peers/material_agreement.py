@@ -9,7 +9,6 @@ Prints a row per scene. EXPLAINED says what share
 of the tiles may differ by more than 2 %; exit 1 beyond that. Writes OUT/materials.json and a PNG per scene: Triad, Cycles,
 difference (full colour at 10 %)."""
 import argparse
-import json
 import os
 import sys
 import tempfile
@@ -43,6 +42,16 @@ def render_both(options, name):
         return triad, cycles, middle - start, time.time() - middle
 
 
+def run(name, options):
+    triad, cycles, seconds_cycles, seconds_triad = render_both(options, name)
+    row, signed = agreement.compare(triad, cycles)
+    row.update(name=name, spp=2 * options.spp, seconds_cycles=seconds_cycles, seconds_triad=seconds_triad,
+               worst=signed.round(4).tolist())
+    row["pass"] = 1 - row["within"] <= EXPLAINED.get(name, 0) + 1e-9
+    agreement.write_picture(os.path.join(options.out, f"material-{name}.png"), triad, cycles, signed)
+    return row
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", help="scenes; default all")
@@ -54,23 +63,8 @@ def main():
     options = parser.parse_args()
     os.makedirs(options.out, exist_ok=True)
     agreement.FOV = generate.FOV
-    rows = []
-    print("| scene | tiles within 2 % | median | 95 % | largest | mean Triad / Cycles | noise Triad | noise Cycles |")
-    print("|---|---|---|---|---|---|---|---|")
-    for name in options.names or generate.SCENES:
-        triad, cycles, seconds_cycles, seconds_triad = render_both(options, name)
-        row, signed = agreement.compare(triad, cycles)
-        row.update(name=name, spp=2 * options.spp, seconds_cycles=seconds_cycles, seconds_triad=seconds_triad,
-                   worst=signed.round(4).tolist())
-        row["pass"] = 1 - row["within"] <= EXPLAINED.get(name, 0) + 1e-9
-        rows.append(row)
-        agreement.write_picture(os.path.join(options.out, f"material-{name}.png"), triad, cycles, signed)
-        print(f"| {name} | {100 * row['within']:.1f} % | {100 * row['median']:.2f} % | {100 * row['p95']:.2f} % "
-              f"| {100 * row['largest']:.1f} % | {row['mean_ratio']:.4f} | {100 * row['noise_triad']:.2f} % "
-              f"| {100 * row['noise_cycles']:.2f} % |", flush=True)
-    with open(os.path.join(options.out, "materials.json"), "w") as f:
-        json.dump({"schema": "triad.agreement/1", "rows": rows}, f, indent=1)
-    return 0 if all(r["pass"] for r in rows) else 1
+    return agreement.report((run(name, options) for name in options.names or generate.SCENES),
+                            os.path.join(options.out, "materials.json"))
 
 
 if __name__ == "__main__":

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "metric/tile_metric.h"
 #include "panel/design.h"
 #include "panel/pixel_filter.h"
+#include "panel/tile_metric.h"
 #include "subpixel_scenes.h"
 
 using namespace triad;

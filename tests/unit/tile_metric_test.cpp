@@ -1,5 +1,5 @@
 // Errors by tile of three eyes at once are those of the metric, one eye after the other.
-#include "metric/tile_metric.h"
+#include "panel/tile_metric.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "metric/subpixel_score.h"
+#include "panel/subpixel_score.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,9 +3,9 @@
 #include <array>
 #include <complex>
 
-#include "metric/subpixel_score.h"
 #include "panel/eye.h"
 #include "panel/fourier.h"
+#include "panel/subpixel_score.h"
 
 namespace triad {
 

@@ -1,4 +1,4 @@
-#include "metric/tile_metric.h"
+#include "panel/tile_metric.h"
 
 #include <algorithm>
 #include <cmath>
