@@ -1,6 +1,7 @@
 #pragma once
 /// Vectors whose elements begin at a page: what is packed for devices lies in cache lines as it does on a
 /// device, and a device that works in the host's memory uses it where it is (Device::share).
+#include <algorithm>
 #include <cstddef>
 #include <new>
 #include <vector>
@@ -23,5 +24,12 @@ struct PageAllocator {
 
 template <class T>
 using AlignedVector = std::vector<T, PageAllocator<T>>;
+
+/// Makes room for `count` more elements: exactly as much where that is much, so that a large vector never
+/// lies beside its copy, and by a half at least, so that many small additions stay linear.
+template <class T>
+void reserve_more(AlignedVector<T>& to, std::size_t count) {
+    if (to.capacity() - to.size() < count) to.reserve(to.size() + std::max(count, to.size() / 2));
+}
 
 }  // namespace triad

@@ -80,7 +80,7 @@ class Builder {
     Range without_duplicates(Range range) const;
     void build_range(Range range, std::vector<BinaryNode>& nodes) const;
     void join(const std::vector<TopNode>& top, std::uint32_t node,
-              const std::vector<std::vector<BinaryNode>>& subtrees, std::vector<BinaryNode>& nodes) const;
+              std::vector<std::vector<BinaryNode>>& subtrees, std::vector<BinaryNode>& nodes) const;
 
     bool is_triangle(const Reference& r) const { return r.item < triangles_.size(); }
 
@@ -170,10 +170,10 @@ void Builder::build_range(Range range, std::vector<BinaryNode>& nodes) const {
     build_range(division.right, nodes);
 }
 
-/// Appends the top from `node` on, with the subtrees of its tasks, depth first.
+/// Appends the top from `node` on, with the subtrees of its tasks, depth first. A subtree is freed when it is
+/// in its place.
 void Builder::join(const std::vector<TopNode>& top, std::uint32_t node,
-                   const std::vector<std::vector<BinaryNode>>& subtrees,
-                   std::vector<BinaryNode>& nodes) const {
+                   std::vector<std::vector<BinaryNode>>& subtrees, std::vector<BinaryNode>& nodes) const {
     const TopNode& from = top[node];
     const auto start = std::uint32_t(nodes.size());
     if (from.left == 0) {  // the root is nobody's child
@@ -181,6 +181,7 @@ void Builder::join(const std::vector<TopNode>& top, std::uint32_t node,
             if (n.count == 0) n.right_or_first += start;
             nodes.push_back(n);
         }
+        subtrees[from.task] = std::vector<BinaryNode>();  // {} would keep the memory
         return;
     }
     nodes.push_back({from.box, 0, 0});

@@ -1,8 +1,11 @@
 #include "bvh/bvh.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel_for.h"
 #include "bvh/binary_tree.h"
@@ -53,13 +56,16 @@ Box box_of(const Bounds& bounds) {
 /// Writes the blocks of all leaves, in the order of the tree.
 class LeafWriter {
   public:
-    LeafWriter(const BinaryTree& tree, std::span<const BvhTriangle> triangles,
-               std::span<const BvhInstance> instances, BvhPool& pool)
-        : tree_(tree), triangles_(triangles), instances_(instances), pool_(pool) {}
+    /// `items`: of the tree's references.
+    LeafWriter(const BinaryTree& tree, std::span<const std::uint32_t> items,
+               std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances, BvhPool& pool)
+        : tree_(tree), items_(items), triangles_(triangles), instances_(instances), pool_(pool) {}
 
     /// dev::Bvh8Node::child of every leaf, by its place among the tree's nodes.
     std::vector<std::uint32_t> write() {
         std::vector<std::uint32_t> words(tree_.nodes.size());
+        reserve_more(pool_.blocks, std::size_t(std::count_if(tree_.nodes.begin(), tree_.nodes.end(),
+                                                             [](const BinaryNode& n) { return n.count; })));
         for (std::size_t i = 0; i < words.size(); ++i)
             if (tree_.nodes[i].count) words[i] = write(tree_.nodes[i]);
         return words;
@@ -67,13 +73,13 @@ class LeafWriter {
 
   private:
     std::uint32_t write(const BinaryNode& leaf) {
-        const Reference* references = tree_.references.data() + leaf.right_or_first;
-        if (references[0].item >= triangles_.size())
-            return BVH_INSTANCE | instances_[references[0].item - triangles_.size()].instance;
+        const std::uint32_t* items = items_.data() + leaf.right_or_first;
+        if (items[0] >= triangles_.size())
+            return BVH_INSTANCE | instances_[items[0] - triangles_.size()].instance;
         dev::TriangleBlock block;
         bool opaque = true;
         for (std::uint32_t lane = 0; lane < 4; ++lane) {
-            const BvhTriangle& t = triangles_[references[std::min(lane, leaf.count - 1)].item];
+            const BvhTriangle& t = triangles_[items[std::min(lane, leaf.count - 1)]];
             for (int c = 0; c < 3; ++c)
                 for (int a = 0; a < 3; ++a) block.vertex[c * 3 + a][lane] = t.corner[c][a];
             block.primitive[lane] = t.primitive;
@@ -85,6 +91,7 @@ class LeafWriter {
     }
 
     const BinaryTree& tree_;
+    std::span<const std::uint32_t> items_;
     std::span<const BvhTriangle> triangles_;
     std::span<const BvhInstance> instances_;
     BvhPool& pool_;
@@ -158,6 +165,21 @@ std::vector<Reference> references_of(std::span<const BvhTriangle> triangles,
     return references;
 }
 
+std::vector<std::uint32_t> items_of(const std::vector<Reference>& references) {
+    std::vector<std::uint32_t> items;
+    items.reserve(references.size());
+    for (const Reference& r : references) items.push_back(r.item);
+    return items;
+}
+
+/// What tasks built and gave up lies in small pieces, which the C library otherwise keeps.
+void give_back_freed_memory() {
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
+}
+constexpr std::size_t many_nodes = 1 << 16;
+
 }  // namespace
 
 const char* name_of(BvhFormat format) { return format == BvhFormat::bvh4 ? "bvh4" : "bvh8"; }
@@ -168,10 +190,14 @@ std::optional<BvhFormat> find_bvh_format(const std::string& name) {
     return {};
 }
 
-BvhRoots build_bvh(std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances,
+BvhRoots build_bvh(std::vector<BvhTriangle> triangles, std::span<const BvhInstance> instances,
                    float origin_reach, BvhPool& pool) {
-    const BinaryTree tree = build_binary_tree(triangles, references_of(triangles, instances), most_height);
-    const std::vector<std::uint32_t> leaves = LeafWriter(tree, triangles, instances, pool).write();
+    BinaryTree tree = build_binary_tree(triangles, references_of(triangles, instances), most_height);
+    // A large scene's arrays are freed as soon as they are not needed: they are the most that a render takes.
+    if (tree.nodes.size() > many_nodes) give_back_freed_memory();
+    const std::vector<std::uint32_t> items = items_of(std::exchange(tree.references, {}));
+    const std::vector<std::uint32_t> leaves = LeafWriter(tree, items, triangles, instances, pool).write();
+    triangles = std::vector<BvhTriangle>();  // {} would keep the memory
     BvhRoots roots;
     roots.fill(TRIAD_NONE);
     const auto write = [&]<class Node>(BvhFormat format, AlignedVector<Node>& nodes) {

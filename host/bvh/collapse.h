@@ -30,13 +30,15 @@ class Collapse {
     unsigned waiting(std::uint32_t node) const { return waiting_[node]; }
 
   private:
-    /// cost[i - 1]: the areas of the wide nodes below when the node may take i slots of its parent (1 to
-    /// width - 1); left[i - 1]: how many of i slots (2 to width) its left child is given, 0: it takes fewer.
-    struct Plan {
-        float cost[most_width - 1];
-        std::uint8_t left[most_width];
-    };
-    void plan(std::size_t n);
+    /// [i - 1]: the areas of the wide nodes below when a node may take i slots of its parent (1 to width -
+    /// 1).
+    using Costs = std::array<float, most_width - 1>;
+    /// [i - 1]: how many of i slots (2 to width) a node's left child is given, 0: it takes fewer.
+    using Plan = std::array<std::uint8_t, most_width>;
+
+    /// Plans the node and what is below it.
+    Costs plan(std::uint32_t node);
+    Costs plan(std::uint32_t node, const Costs& left, const Costs& right);
     void distribute(std::uint32_t node, int slots, Children& children, int& count) const;
 
     const std::vector<BinaryNode>& nodes_;

@@ -38,10 +38,7 @@ Sizes sizes_of(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         s.primitives += mesh.primitives.size();
         s.unique_triangles += triangles_of(mesh);
-        for (const Primitive& p : mesh.primitives)
-            s.attribute_bytes += 12 * (p.positions.size() + p.normals.size()) +
-                                 16 * (p.tangents.size() + p.colours.size()) +
-                                 8 * (p.uvs[0].size() + p.uvs[1].size()) + 12 * p.triangles.size();
+        for (const Primitive& p : mesh.primitives) s.attribute_bytes += bytes_of(p);
     }
     for (const MeshInstance& instance : scene.instances) {
         s.triangles += triangles_of(scene.meshes[instance.mesh]);

@@ -59,7 +59,7 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings,
     pack_wavelengths(packed);
     pack_photons(scene, settings, packed);
     name_light_sources(scene, packed);
-    packed.flattened = {};
+    packed.emitters = std::vector<BvhTriangle>();  // {} would keep the memory
     return packed;
 }
 

@@ -65,7 +65,7 @@ struct PackedScene {
     std::vector<dev::Instance> instance_table;
     AlignedVector<dev::Triangle> triangles;
     AlignedVector<dev::Geometry> geometries;
-    std::vector<BvhTriangle> flattened;  ///< while packing: of the world's tree, by rising primitive
+    std::vector<BvhTriangle> emitters;  ///< while packing: in the world's tree, by rising primitive
     AlignedVector<float> normals, tangents, uvs, colours;
     std::vector<dev::Light> lights;
     std::vector<std::uint32_t> light_cdf;

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -85,10 +89,12 @@ class GeometryPacker {
         for (int set = 0; set < 2; ++set)
             if (!p.uvs[set].empty()) {
                 at.uv[set] = index32(out_.uvs.size() / 2);
+                reserve_more(out_.uvs, 2 * p.uvs[set].size());
                 for (const vec2& uv : p.uvs[set]) out_.uvs.insert(out_.uvs.end(), {uv.x, uv.y});
             }
         if (!p.colours.empty()) {
             at.colour = index32(out_.colours.size() / 4);
+            reserve_more(out_.colours, 4 * p.colours.size());
             for (const vec4& c : p.colours) out_.colours.insert(out_.colours.end(), {c.x, c.y, c.z, c.w});
         }
         return at;
@@ -115,6 +121,8 @@ class GeometryPacker {
         g.touching = TRIAD_NONE;
 
         const dmat3 normal_matrix = glm::transpose(glm::inverse(linear));
+        reserve_more(out_.normals, 3 * p.normals.size());
+        reserve_more(out_.tangents, 4 * p.tangents.size());
         for (const vec3& n : p.normals) append(out_.normals, vec3(glm::normalize(normal_matrix * dvec3(n))));
         for (const vec4& t : p.tangents) {
             append(out_.tangents, vec3(glm::normalize(linear * dvec3(vec3(t)))));
@@ -198,6 +206,10 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
 
     GeometryPacker packer(scene, packed, settings.view.orthographic ? std::nullopt : std::optional(eye));
     std::vector<BvhTriangle> flat;
+    std::size_t flat_count = 0;
+    for (const MeshInstance& i : scene.instances)
+        if (!instanced(i.mesh)) flat_count += triangles_of(scene.meshes[i.mesh]);
+    flat.reserve(flat_count), packed.triangles.reserve(flat_count);
     std::vector<BvhInstance> boxes;
     std::vector<std::optional<BvhRoots>> roots(scene.meshes.size());
     std::vector<Bounds> object_bounds(scene.meshes.size());
@@ -208,8 +220,17 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
                 const Bounds b = transformed(reach, glm::inverse(rebase * i.to_world));
                 return std::max(largest(b.lo), largest(b.hi));
             }());
-    std::unordered_map<std::string, std::size_t>
-        placed;  // exact duplicates: the same mesh with the same matrix
+    // Exact duplicates: the same mesh with the same matrix.
+    const auto matrix = [&](std::uint32_t i) {
+        const auto& rows = packed.instance_table[i].to_world;
+        return std::string_view(reinterpret_cast<const char*>(rows), sizeof rows);
+    };
+    const auto hash = [&](std::uint32_t i) { return std::hash<std::string_view>()(matrix(i)); };
+    const auto equal = [&](std::uint32_t a, std::uint32_t b) {
+        return matrix(a) == matrix(b) &&
+               std::ranges::equal(packed.instance_table[a].root, packed.instance_table[b].root);
+    };
+    std::unordered_set<std::uint32_t, decltype(hash), decltype(equal)> placed(0, hash, equal);
     for (const MeshInstance& i : scene.instances) {
         const dmat4 to_rebased = rebase * i.to_world;
         const Mesh& mesh = scene.meshes[i.mesh];
@@ -218,34 +239,36 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
             continue;
         }
         packed.instances = true;
-        dev::Instance instance{};
-        write_rows(instance.to_world, to_rebased);
-        write_rows(instance.to_object, glm::inverse(to_rebased));
-        std::string key(reinterpret_cast<const char*>(instance.to_world), sizeof instance.to_world);
-        key += std::to_string(i.mesh);
-        if (!placed.try_emplace(key, packed.instance_table.size()).second) {
-            packed.duplicates += triangles_of(mesh);
-            continue;
-        }
         if (!roots[i.mesh]) {
             std::vector<BvhTriangle> own;
             packer.add_shared(mesh, own);
             for (const BvhTriangle& t : own)
                 for (const vec3& c : t.corner) object_bounds[i.mesh].add(dvec3(c));
-            roots[i.mesh] = build_bvh(own, {}, object_reach[i.mesh], packed.bvh);
+            roots[i.mesh] = build_bvh(std::move(own), {}, object_reach[i.mesh], packed.bvh);
         }
+        dev::Instance instance{};
+        write_rows(instance.to_world, to_rebased);
+        write_rows(instance.to_object, glm::inverse(to_rebased));
         std::copy(roots[i.mesh]->begin(), roots[i.mesh]->end(), instance.root);
-        boxes.push_back({transformed(object_bounds[i.mesh], to_rebased),
-                         static_cast<std::uint32_t>(packed.instance_table.size())});
+        const auto index = static_cast<std::uint32_t>(packed.instance_table.size());
         packed.instance_table.push_back(instance);
+        if (!placed.insert(index).second) {
+            packed.instance_table.pop_back();
+            packed.duplicates += triangles_of(mesh);
+            continue;
+        }
+        boxes.push_back({transformed(object_bounds[i.mesh], to_rebased), index});
     }
     if (flat.empty() && boxes.empty())
         throw Error(Exit::scene,
                     "There is nothing to render in " + scene.name + ": its scene has no triangles.");
     note_touching(scene, packed, flat);
     packed.first_placed_block = packed.bvh.blocks.size();
-    packed.roots = build_bvh(flat, boxes, std::max(largest(reach.lo), largest(reach.hi)), packed.bvh);
-    packed.flattened = std::move(flat);
+    std::copy_if(flat.begin(), flat.end(), std::back_inserter(packed.emitters), [&](const BvhTriangle& t) {
+        return emits(scene.materials[packed.geometries[t.geometry].material]);
+    });
+    packed.roots =
+        build_bvh(std::move(flat), boxes, std::max(largest(reach.lo), largest(reach.hi)), packed.bvh);
     detail("packed " + std::to_string(packed.triangles.size()) + " triangles in " +
            std::to_string(packed.geometries.size()) + " geometries, " + std::to_string(boxes.size()) +
            " instances");

@@ -80,7 +80,7 @@ void add_triangles(const Scene& scene, Picker& picker) {
         for (std::size_t i = g.first_triangle;
              i < packed.triangles.size() && packed.triangles[i].geometry == geometry; ++i) {
             const BvhTriangle& t =
-                *std::lower_bound(packed.flattened.begin(), packed.flattened.end(), i,
+                *std::lower_bound(packed.emitters.begin(), packed.emitters.end(), i,
                                   [](const BvhTriangle& b, std::size_t p) { return b.primitive < p; });
             auto corner = [&](int c) { return dvec3(t.corner[c]); };
             const dvec3 e1 = corner(1) - corner(0), e2 = corner(2) - corner(0);

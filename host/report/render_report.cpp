@@ -67,6 +67,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"format", name_of(format_of(session.device()))},
         {"path_driver", name_of(path_driver_of(session.device()))},
         {"devices", rows_of(outcome.result.devices)},
+        {"scene_bytes", bytes_of(session.scene())},
         {"device_bytes", renderer.device_bytes()},
         {"film_bytes", film_bytes(film)},
         {"bins", {film.bins_x, film.bins_y}},

@@ -112,6 +112,22 @@ Bounds bounds_of(const Scene& scene) {
     return bounds;
 }
 
+std::uint64_t bytes_of(const Primitive& p) {
+    return sizeof(vec3) * (p.positions.size() + p.normals.size()) +
+           sizeof(vec4) * (p.tangents.size() + p.colours.size()) +
+           sizeof(vec2) * (p.uvs[0].size() + p.uvs[1].size()) + sizeof(uvec3) * p.triangles.size() +
+           sizeof(uvec2) * p.strokes.size();
+}
+
+std::uint64_t bytes_of(const Scene& scene) {
+    std::uint64_t bytes = sizeof(MeshInstance) * scene.instances.size();
+    for (const Mesh& mesh : scene.meshes)
+        for (const Primitive& p : mesh.primitives) bytes += bytes_of(p);
+    for (const Image& image : scene.images) bytes += image.texels.size();
+    if (scene.environment) bytes += sizeof(float) * scene.environment->rgb.size();
+    return bytes;
+}
+
 bool is_solid(const Material& m) {
     return m.thickness > 0.0f && (m.transmission > 0.0f || m.diffuse_transmission);
 }

@@ -203,6 +203,11 @@ struct Scene {
 /// World bounds of everything that is drawn.
 Bounds bounds_of(const Scene& scene);
 
+/// What the attributes and triangles of a primitive take on the host.
+std::uint64_t bytes_of(const Primitive& primitive);
+/// What the scene's arrays take on the host: geometry, images, the map around it, placements.
+std::uint64_t bytes_of(const Scene& scene);
+
 /// Checks every invariant above (indices, lengths, finite numbers, ranges). Throws Error(scene) that names
 /// the object. Also drops what cannot be drawn (triangles without area or with non-finite corners) and
 /// returns how many.
