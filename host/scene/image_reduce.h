@@ -1,5 +1,5 @@
 #pragma once
-/// Images made smaller, for scenes whose textures are larger than the memory.
+/// Images made smaller: for scenes whose textures are larger than the memory, and for the levels of textures.
 #include "scene/scene.h"
 
 namespace triad {

@@ -1,4 +1,4 @@
-#include "io/image_reduce.h"
+#include "scene/image_reduce.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/colour.h"
+#include "base/parallel_for.h"
 
 namespace triad {
 namespace {
@@ -40,14 +41,23 @@ void put(Image& image, std::size_t i, double value, bool is_colour) {
         std::memcpy(&image.texels[2 * i], &number, sizeof number);
 }
 
-/// Calls add(source, share) for all that texel `i` of `to` covers of `from`: whole ones and parts at the
-/// ends.
-template <class Add>
-void for_covered(unsigned i, unsigned from, unsigned to, const Add& add) {
-    const double step = double(from) / to, begin = i * step, end = std::min((i + 1) * step, double(from));
-    for (auto k = unsigned(begin); k < from && k < end; ++k)
-        if (const double part = std::min(end, k + 1.0) - std::max(begin, double(k)); part > 0)
-            add(k, part / (end - begin));
+/// Of what a texel covers: one of the larger image's, whole, or a part at the ends.
+struct Part {
+    unsigned source;
+    double share;
+};
+
+/// What each of `to` texels in a row covers of `from`.
+std::vector<std::vector<Part>> covered(unsigned from, unsigned to) {
+    std::vector<std::vector<Part>> all(to);
+    const double step = double(from) / to;
+    for (unsigned i = 0; i < to; ++i) {
+        const double begin = i * step, end = std::min((i + 1) * step, double(from));
+        for (auto k = unsigned(begin); k < from && k < end; ++k)
+            if (const double part = std::min(end, k + 1.0) - std::max(begin, double(k)); part > 0)
+                all[i].push_back({k, part / (end - begin)});
+    }
+    return all;
 }
 
 }  // namespace
@@ -66,22 +76,24 @@ Image reduced(const Image& image, unsigned longer, bool is_colour) {
     Image small{image.name, size.x, size.y, image.bits, {}};
     small.texels.resize(std::size_t(size.x) * size.y * 4 * image.bits / 8);
     const std::vector<float> light = meanings(image.bits, is_colour), plain = meanings(image.bits, false);
-    std::vector<double> row(std::size_t(size.x) * 4);
-    for (unsigned y = 0; y < size.y; ++y) {
-        std::fill(row.begin(), row.end(), 0.0);
-        for_covered(y, image.height, size.y, [&](unsigned from_y, double share_y) {
-            const std::size_t start = std::size_t(from_y) * image.width * 4;
-            for (unsigned x = 0; x < size.x; ++x)
-                for_covered(x, image.width, size.x, [&](unsigned from_x, double share_x) {
-                    for (std::size_t c = 0; c < 4; ++c)
-                        row[4 * x + c] +=
-                            share_x * share_y *
-                            double((c < 3 ? light : plain)[value_at(image, start + 4 * from_x + c)]);
-                });
-        });
-        for (std::size_t i = 0; i < row.size(); ++i)
-            put(small, std::size_t(y) * size.x * 4 + i, row[i], is_colour && i % 4 < 3);
-    }
+    const auto rows = covered(image.height, size.y), columns = covered(image.width, size.x);
+    parallel_for(size.y, 16, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> row(std::size_t(size.x) * 4);
+        for (std::size_t y = begin; y < end; ++y) {
+            std::fill(row.begin(), row.end(), 0.0);
+            for (const Part& from_row : rows[y]) {
+                const std::size_t start = std::size_t(from_row.source) * image.width * 4;
+                for (unsigned x = 0; x < size.x; ++x)
+                    for (const Part& from : columns[x])
+                        for (std::size_t c = 0; c < 4; ++c)
+                            row[4 * x + c] +=
+                                from.share * from_row.share *
+                                double((c < 3 ? light : plain)[value_at(image, start + 4 * from.source + c)]);
+            }
+            for (std::size_t i = 0; i < row.size(); ++i)
+                put(small, y * size.x * 4 + i, row[i], is_colour && i % 4 < 3);
+        }
+    });
     return small;
 }
 
