@@ -7,14 +7,12 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "pack/pack.h"
+#include "pack/texture_levels.h"
 #include "scene/image_reduce.h"
 
 namespace triad {
 
 namespace {
-
-/// Images of fewer texels have no levels: they stay in the caches, and pictures rarely see them smaller.
-constexpr std::size_t least_texels_for_levels = 128 * 128;
 
 /// What a texture holds.
 enum class TextureOf {
@@ -84,11 +82,13 @@ class TexturePacker {
         auto [it, fresh] = levels_.try_emplace(index);
         if (!fresh) return it->second;
         const Image& image = scene_.images[index];
-        if (std::size_t(image.width) * image.height < least_texels_for_levels) return it->second;
-        Image level;
+        if (!may_have_levels(image)) return it->second;
+        Image level;  // of 16 bits, so that rounding does not add up from one to the next
         for (unsigned side = std::max(image.width, image.height) / 2; side > 0; side /= 2) {
-            level = reduced(it->second.empty() ? image : level, side, true);
-            it->second.push_back(shape(level, add_texels(level, true), true));
+            level =
+                it->second.empty() ? with_bits(reduced(image, side, true), 16) : reduced(level, side, true);
+            const Image stored = with_bits(level, image.bits);
+            it->second.push_back(shape(stored, add_texels(stored, true), true));
         }
         return it->second;
     }
@@ -161,10 +161,8 @@ bool has_levels(const PackedSurfaces& surfaces) {
 void pack_materials(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces) {
     TexturePacker textures(scene, surfaces);
     for (const Material& m : scene.materials) {
-        // What coverage leaves out must not be part of a mean.
-        const TextureOf colours = settings.texture_levels && m.alpha_mode == AlphaMode::opaque
-                                      ? TextureOf::averaged_colours
-                                      : TextureOf::colours;
+        const TextureOf colours =
+            settings.texture_levels && may_have_levels(m) ? TextureOf::averaged_colours : TextureOf::colours;
         dev::Material d{};
         for (int c = 0; c < 4; ++c) d.base_colour[c] = m.base_colour[c];
         for (int c = 0; c < 3; ++c) {

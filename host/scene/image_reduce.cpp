@@ -14,14 +14,18 @@ namespace triad {
 namespace {
 
 /// What the values of a channel mean, as light.
-std::vector<float> meanings(unsigned bits, bool is_colour) {
-    const std::size_t n = std::size_t(1) << bits;
-    std::vector<float> table(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        const double value = double(i) / double(n - 1);
-        table[i] = float(is_colour ? srgb_decode(value) : value);
-    }
-    return table;
+const std::vector<float>& meanings(unsigned bits, bool is_colour) {
+    const auto table_of = [](std::size_t values, bool of_colour) {
+        std::vector<float> table(values);
+        for (std::size_t i = 0; i < values; ++i) {
+            const double value = double(i) / double(values - 1);
+            table[i] = float(of_colour ? srgb_decode(value) : value);
+        }
+        return table;
+    };
+    static const std::vector<float> tables[2][2] = {{table_of(1 << 8, false), table_of(1 << 8, true)},
+                                                    {table_of(1 << 16, false), table_of(1 << 16, true)}};
+    return tables[bits == 16][is_colour];
 }
 
 unsigned value_at(const Image& image, std::size_t i) {
@@ -75,7 +79,7 @@ Image reduced(const Image& image, unsigned longer, bool is_colour) {
     const uvec2 size = reduced_size(image.width, image.height, longer);
     Image small{image.name, size.x, size.y, image.bits, {}};
     small.texels.resize(std::size_t(size.x) * size.y * 4 * image.bits / 8);
-    const std::vector<float> light = meanings(image.bits, is_colour), plain = meanings(image.bits, false);
+    const std::vector<float>&light = meanings(image.bits, is_colour), &plain = meanings(image.bits, false);
     const auto rows = covered(image.height, size.y), columns = covered(image.width, size.x);
     parallel_for(size.y, 16, [&](std::size_t begin, std::size_t end) {
         std::vector<double> row(std::size_t(size.x) * 4);
@@ -95,6 +99,15 @@ Image reduced(const Image& image, unsigned longer, bool is_colour) {
         }
     });
     return small;
+}
+
+Image with_bits(const Image& image, unsigned bits) {
+    Image other{image.name, image.width, image.height, bits, {}};
+    const std::size_t values = std::size_t(image.width) * image.height * 4;
+    other.texels.resize(values * bits / 8);
+    for (std::size_t i = 0; i < values; ++i)
+        put(other, i, double(value_at(image, i)) / double((1u << image.bits) - 1), false);
+    return other;
 }
 
 }  // namespace triad

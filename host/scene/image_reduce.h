@@ -11,4 +11,7 @@ uvec2 reduced_size(unsigned width, unsigned height, unsigned longer);
 /// images of anything else, as they are). Takes memory for a row beside the image.
 Image reduced(const Image& image, unsigned longer, bool is_colour);
 
+/// The same picture with 8 or 16 bits: there and back is the same.
+Image with_bits(const Image& image, unsigned bits);
+
 }  // namespace triad
