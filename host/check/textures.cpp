@@ -1,10 +1,9 @@
 // Textures: which level a mean is read from, and that means give way to the texels themselves.
 #include <algorithm>
 
+#include "base/colour.h"
 #include "check/cases.h"
 #include "check/picture.h"
-
-#include "base/colour.h"
 
 namespace triad {
 namespace {
