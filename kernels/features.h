@@ -12,6 +12,9 @@
 #ifndef TRIAD_TEXTURES /* some material uses a texture */
 #define TRIAD_TEXTURES 1
 #endif
+#ifndef TRIAD_TEXTURE_LEVELS /* some texture of colours has a pyramid of means (needs TRIAD_TEXTURES) */
+#define TRIAD_TEXTURE_LEVELS 1
+#endif
 #ifndef TRIAD_NORMAL_MAPS /* some material has a normal map (needs TRIAD_TEXTURES) */
 #define TRIAD_NORMAL_MAPS 1
 #endif

@@ -86,6 +86,7 @@ void use_textures(FeatureScene& s) {
     });
     for (const std::size_t m : {floor_material, wall_material})
         s.scene.materials[m].base_colour_texture = checks;
+    s.settings.texture_levels = false;
 }
 
 void use_normal_maps(FeatureScene& s) {
@@ -158,6 +159,7 @@ const std::map<std::string, Recipe>& recipes() {
              s.scene.materials[ring_material].base_colour.a = 0.5f;
          }}},
         {"TEXTURES", {use_textures}},
+        {"TEXTURE_LEVELS", {[](FeatureScene& s) { s.settings.texture_levels = true; }, use_textures}},
         {"NORMAL_MAPS", {use_normal_maps, use_textures}},
         {"VERTEX_COLOURS", {use_vertex_colours}},
         {"SPECULAR", {use_specular}},

@@ -26,6 +26,7 @@ void add_spectral(std::vector<CheckCase>& cases);
 void add_light_spectra(std::vector<CheckCase>& cases);
 void add_film(std::vector<CheckCase>& cases);
 void add_photons(std::vector<CheckCase>& cases);
+void add_textures(std::vector<CheckCase>& cases);
 
 void add_invariance(std::vector<CheckCase>& cases);
 void add_energy(std::vector<CheckCase>& cases);
@@ -33,5 +34,6 @@ void add_radiometry(std::vector<CheckCase>& cases);
 void add_spectral_pictures(std::vector<CheckCase>& cases);
 void add_hard_pictures(std::vector<CheckCase>& cases);
 void add_photon_pictures(std::vector<CheckCase>& cases);
+void add_texture_pictures(std::vector<CheckCase>& cases);
 
 }  // namespace triad

@@ -49,7 +49,8 @@ const std::vector<CheckCase>& function_cases() {
                                add_spectral,
                                add_light_spectra,
                                add_film,
-                               add_photons})
+                               add_photons,
+                               add_textures})
             add(all);
         return all;
     }();
@@ -70,7 +71,7 @@ const std::vector<CheckCase>& picture_cases() {
     static const std::vector<CheckCase> cases = [] {
         std::vector<CheckCase> all;
         for (const auto add : {add_invariance, add_energy, add_radiometry, add_spectral_pictures,
-                               add_hard_pictures, add_photon_pictures})
+                               add_hard_pictures, add_photon_pictures, add_texture_pictures})
             add(all);
         return all;
     }();

@@ -12,6 +12,7 @@
 #include "cli/info_film.h"
 #include "io/gltf_contents.h"
 #include "io/io.h"
+#include "pack/texture_levels.h"
 #include "report/report.h"
 #include "scene/scene.h"
 
@@ -25,7 +26,7 @@ constexpr std::size_t bytes_per_instance = 256;
 
 struct Sizes {
     std::size_t primitives = 0, unique_triangles = 0, triangles = 0, emissive_triangles = 0;
-    std::uint64_t attribute_bytes = 0, texture_bytes = 0, device_bytes = 0;
+    std::uint64_t attribute_bytes = 0, texture_bytes = 0, level_bytes = 0, device_bytes = 0;
 };
 
 Sizes sizes_of(const Scene& scene) {
@@ -47,7 +48,9 @@ Sizes sizes_of(const Scene& scene) {
                 s.emissive_triangles += p.triangles.size();
     }
     for (const Image& image : scene.images) s.texture_bytes += image.texels.size();
-    s.device_bytes = s.attribute_bytes + s.texture_bytes + bytes_per_instance * scene.instances.size() +
+    s.level_bytes = level_bytes(scene);
+    s.device_bytes = s.attribute_bytes + s.texture_bytes + s.level_bytes +
+                     bytes_per_instance * scene.instances.size() +
                      static_cast<std::uint64_t>(tree_bytes_per_triangle * double(s.unique_triangles));
     return s;
 }
@@ -72,8 +75,9 @@ Exit run(const std::string& path, int scene_index, bool strict, std::optional<un
         std::printf("triangles   %zu in meshes, %zu as placed, %zu of them emit\n", s.unique_triangles,
                     s.triangles, s.emissive_triangles);
         std::printf("materials   %zu\n", scene.materials.size());
-        std::printf("textures    %zu of %zu images, %s\n", scene.textures.size(), scene.images.size(),
-                    bytes_text(s.texture_bytes).c_str());
+        std::printf("textures    %zu of %zu images, %s, and %s of levels\n", scene.textures.size(),
+                    scene.images.size(), bytes_text(s.texture_bytes).c_str(),
+                    bytes_text(s.level_bytes).c_str());
         for (const Image& image : scene.images)
             std::printf("            %ux%u, %u bits  %s\n", image.width, image.height, image.bits,
                         image.name.c_str());
@@ -112,6 +116,7 @@ Exit run(const std::string& path, int scene_index, bool strict, std::optional<un
                 {"textures", scene.textures.size()},
                 {"images", scene.images.size()},
                 {"texture_bytes", s.texture_bytes},
+                {"level_bytes", s.level_bytes},
                 {"cameras", cameras},
                 {"lights", scene.lights.size()},
                 {"environment",

@@ -91,6 +91,10 @@ void declare_sampler(CLI::App& command, RenderRequest& o) {
         command, "--sampler", "NAME",
         "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
         {{"sobol", false}, {"independent", true}}, o.independent);
+    add_switch(command, "--texture-levels",
+               "Average colours of textures over what a sample stands for, which shrinks with every sample "
+               "(default on; off: the texels of the images, to compare)",
+               o.texture_levels);
     add_parsed(command, "--samples", "A:B|share:I/K",
                "Only this half-open range of sample indices, or the I-th (from 0) of K equal parts of --spp, "
                "for triad merge",

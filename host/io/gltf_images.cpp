@@ -11,7 +11,7 @@
 #include "io/gltf_material.h"
 #include "io/gltf_specular_glossiness.h"
 #include "io/image_container.h"
-#include "io/image_reduce.h"
+#include "scene/image_reduce.h"
 
 namespace triad::gltf {
 namespace {
@@ -24,6 +24,7 @@ constexpr std::uint64_t parts_for_images = 3;
 /// Of an image that is not decoded yet.
 struct Header {
     unsigned width = 0, height = 0, bits = 8;
+    bool is_colour = false;
 
     std::uint64_t bytes(unsigned longer) const {
         const uvec2 size = longer ? reduced_size(width, height, longer) : uvec2(width, height);
@@ -34,7 +35,7 @@ struct Header {
 Header header_of(const std::string& name, const std::vector<std::uint8_t>& bytes) {
     const CleanImage clean = clean_image(name, bytes);
     const bool deep = clean.format == ImageFormat::png && clean.bytes[24] == 16;  // bit depth in IHDR
-    return {clean.width, clean.height, deep ? 16u : 8u};
+    return {clean.width, clean.height, deep ? 16u : 8u, false};
 }
 
 std::uint64_t bytes_of(const std::vector<Header>& headers, unsigned longer) {
@@ -43,13 +44,21 @@ std::uint64_t bytes_of(const std::vector<Header>& headers, unsigned longer) {
     return sum;
 }
 
+/// The same as packed: with levels, which take a third of what they are of.
+std::uint64_t packed_bytes_of(const std::vector<Header>& headers, unsigned longer) {
+    std::uint64_t sum = bytes_of(headers, longer);
+    for (const Header& header : headers)
+        if (header.is_colour) sum += header.bytes(longer) / 3;
+    return sum;
+}
+
 /// The largest power of two to which images must be reduced for the memory limit; 0: they fit as they are.
 unsigned fitting_size(const std::vector<Header>& headers) {
     const std::uint64_t limit = memory_limit(), used = memory_in_use();
     const std::uint64_t room = limit == 0 ? UINT64_MAX : (limit - std::min(used, limit)) / parts_for_images;
-    if (bytes_of(headers, 0) <= room) return 0;
+    if (packed_bytes_of(headers, 0) <= room) return 0;
     unsigned longer = 1 << 16;
-    while (longer > 1 && bytes_of(headers, longer) > room) longer /= 2;
+    while (longer > 1 && packed_bytes_of(headers, longer) > room) longer /= 2;
     return longer;
 }
 
@@ -75,8 +84,10 @@ void Materials::decode_images(std::optional<unsigned> wanted) {
         return image;
     };
     std::vector<Header> headers(images.size());
-    for (std::size_t i = 0; i < images.size(); ++i)
+    for (std::size_t i = 0; i < images.size(); ++i) {
         headers[i] = header_of(source_of(i).name, bytes_of(source_of(i)));
+        headers[i].is_colour = colours_.contains(i);
+    }
     const unsigned longer = wanted ? *wanted : fitting_size(headers);
     const auto is_reduced = [&](const Header& h) {
         return longer > 0 && std::max(h.width, h.height) > longer;
@@ -104,7 +115,7 @@ void Materials::decode_images(std::optional<unsigned> wanted) {
                 continue;
             }
             const std::lock_guard lock(one_large);
-            images[i] = reduced(decoded(i, &damage[i]), longer, colours_.contains(i));
+            images[i] = reduced(decoded(i, &damage[i]), longer, headers[i].is_colour);
         }
     });
     for (std::size_t i = 0; i < images.size(); ++i)

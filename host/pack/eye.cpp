@@ -20,7 +20,7 @@ constexpr double most_coordinate = 2 * (longest_edge_per_distance + 1);
 
 /// Whether what was packed with settings `a` holds for `b`: paths leave what is packed for photons alone.
 bool packs_alike(const RenderSettings& a, const RenderSettings& b) {
-    return a.spectral == b.spectral &&
+    return a.spectral == b.spectral && a.texture_levels == b.texture_levels &&
            (b.integrator == Integrator::path ||
             (a.integrator == b.integrator && a.aim_photons == b.aim_photons)) &&
            (a.ray_start == RayStart::filter) == (b.ray_start == RayStart::filter) &&
@@ -111,13 +111,18 @@ std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSett
 }
 
 std::string text_of(const RenderSettings& settings, const PackedScene& packed) {
-    const std::string text = text_of(settings);
+    std::string text = text_of(settings);
+    text.pop_back();
+    // Named where they are on, so that films of before, which had none, do not merge with them.
+    if (has_levels(*packed.surfaces)) text += ", \"texture_levels\": 1";
     const dvec3& eye = packed.settings.view.eye;
-    if (eye == settings.view.eye && packed.settings.view.orthographic == settings.view.orthographic)
-        return text;
-    char place[128];
-    std::snprintf(place, sizeof place, ", \"packed_for_eye\": [%.17g, %.17g, %.17g]}", eye.x, eye.y, eye.z);
-    return text.substr(0, text.size() - 1) + place;
+    if (eye != settings.view.eye || packed.settings.view.orthographic != settings.view.orthographic) {
+        char place[128];
+        std::snprintf(place, sizeof place, ", \"packed_for_eye\": [%.17g, %.17g, %.17g]", eye.x, eye.y,
+                      eye.z);
+        text += place;
+    }
+    return text + "}";
 }
 
 }  // namespace triad

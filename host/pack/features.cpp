@@ -11,6 +11,7 @@ constexpr FeatureOption table[] = {
     {"INSTANCES", &Features::instances},
     {"ALPHA_TEST", &Features::alpha_test},
     {"TEXTURES", &Features::textures},
+    {"TEXTURE_LEVELS", &Features::texture_levels},
     {"NORMAL_MAPS", &Features::normal_maps},
     {"VERTEX_COLOURS", &Features::vertex_colours},
     {"SPECULAR", &Features::specular},
@@ -87,6 +88,7 @@ Features facts_of(const Scene& scene) {
 Features features_of(const PackedScene& packed, const RenderSettings& settings) {
     Features f = packed.facts;
     f.instances = packed.instances;
+    f.texture_levels = has_levels(*packed.surfaces);
     f.dispersion =
         settings.spectral == Spectral::classic || (settings.spectral != Spectral::off && f.dispersion);
     f.light_spectra = packed.spectrum.size() > 1;

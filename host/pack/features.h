@@ -14,6 +14,7 @@ namespace triad {
 /// One member per option of kernels/features.h, same sentence.
 struct Features {
     bool instances = true, alpha_test = true, textures = true, normal_maps = true, vertex_colours = true;
+    bool texture_levels = true;
     bool specular = true, transmission = true, dispersion = true, priorities = true, unlit = true;
     bool triangle_lights = true, punctual_lights = true, environment_map = true, lens = true, bins = true;
     bool clearcoat = true, sheen = true, anisotropy = true, iridescence = true, diffuse_transmission = true;

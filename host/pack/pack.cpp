@@ -11,7 +11,7 @@ namespace {
 
 std::shared_ptr<const PackedSurfaces> pack_surfaces(const Scene& scene, const RenderSettings& settings) {
     auto surfaces = std::make_shared<PackedSurfaces>();
-    pack_materials(scene, *surfaces);
+    pack_materials(scene, settings, *surfaces);
     pack_film_responses(scene, *surfaces);
     pack_spectrum(scene, settings, *surfaces);
     pack_environment(scene, settings, *surfaces);
@@ -78,6 +78,7 @@ dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings) {
     c.extent[1] = static_cast<float>(view.extent.y);
     c.pixels[0] = static_cast<float>(settings.width);
     c.pixels[1] = static_cast<float>(settings.height);
+    c.pixel_area = 4 * c.extent[0] * c.extent[1] / (c.pixels[0] * c.pixels[1]);
     frame.environment = packed.environment;
     const std::array<unsigned, 4> crop =
         settings.crop[2] ? settings.crop : std::array<unsigned, 4>{0, 0, settings.width, settings.height};

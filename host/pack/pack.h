@@ -42,6 +42,9 @@ struct PackedSurfaces {
     AlignedVector<std::uint16_t> env_columns;
 };
 
+/// Whether some texture has a pyramid of means.
+bool has_levels(const PackedSurfaces& surfaces);
+
 /// A scene as kernels read it (kernels/shading/scene.h), on the host: made once, kept, and shared by all
 /// devices. It is packed for an eye: near it, points are exact. Seeds, crops, sizes, bins and cameras that
 /// holds_for() allows need no other packing.
@@ -105,8 +108,9 @@ std::shared_ptr<const PackedScene> pack_for(const Scene& scene, const RenderSett
 /// Everything of the picture that is no array.
 dev::Frame frame_of(const PackedScene& packed, const RenderSettings& settings);
 
-/// What a film of the packed scene names as its settings: text_of(settings), and the eye that the scene was
-/// packed for where it is not that of the view. Films merge only where it is equal.
+/// What a film of the packed scene names as its settings: text_of(settings), whether its textures have
+/// levels, and the eye that the scene was packed for where it is not that of the view. Films merge only where
+/// it is equal.
 std::string text_of(const RenderSettings& settings, const PackedScene& packed);
 
 /// Who brings the light: the one that was chosen for the scene, or paths, which any packing serves.
@@ -155,7 +159,7 @@ LightColour light_colour(const PackedSurfaces& surfaces, const std::optional<Lig
 
 // Parts of pack(), one file each.
 void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
-void pack_materials(const Scene& scene, PackedSurfaces& surfaces);
+void pack_materials(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces);
 /// Mean of cos(2 pi D / wavelength) over each channel's response under D65: row i is D = FILM_STEP i nm.
 std::vector<float> film_responses();
 void pack_film_responses(const Scene& scene, PackedSurfaces& surfaces);

@@ -73,8 +73,7 @@ dev::PhotonFrame photon_frame_of(const PackedScene& packed, const RenderSettings
     f.count = std::uint32_t(count);
     f.casters = map || !settings.aim_photons ? 0 : std::uint32_t(packed.casters.size());
     f.scatter = map;
-    f.pixel_area = 4 * frame.camera.extent[0] * frame.camera.extent[1] /
-                   (frame.camera.pixels[0] * frame.camera.pixels[1]);
+    f.pixel_area = frame.camera.pixel_area;
     f.lights = packed.photon_lights_shape;
     const dvec3 centre = packed.bounds.centre();
     for (int i = 0; i < 3; ++i) f.scene_centre[i] = float(centre[i]);

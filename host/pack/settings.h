@@ -53,6 +53,9 @@ struct RenderSettings {
     double roulette = 0.4;
     /// Random numbers hashed for every sample alone, instead of Sobol's sequence: more error, but known laws.
     bool independent = false;
+    /// Colours of textures are means over what a sample stands for, which shrinks with every sample
+    /// (docs/shading.md); false: the image's own texels, to compare.
+    bool texture_levels = true;
     Spectral spectral = Spectral::automatic;
     Integrator integrator = Integrator::path;
     /// With every sample of the picture (0: one for each pixel, or what render/photon_count.h finds best

@@ -116,6 +116,7 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
     settings.max_depth = o.max_depth;
     settings.roulette = o.roulette;
     settings.independent = o.independent;
+    settings.texture_levels = o.texture_levels;
     settings.spectral = o.spectral;
     settings.integrator = o.integrator;
     settings.photons = o.photons;

@@ -45,6 +45,7 @@ struct RenderRequest {
     bool aim_photons = true, final_gather = true;
     double photon_radius = 0;  ///< the last four: as in RenderSettings
     bool independent = false;  ///< samples, instead of Sobol's sequence
+    bool texture_levels = true;
     Spectral spectral = Spectral::automatic;
     ReconstructRequest reconstruct;
     std::string device;

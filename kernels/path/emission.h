@@ -81,8 +81,8 @@ TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Ver
 #if TRIAD_CLEARCOAT
     weight *= coat_emission(scene, s, vertex->wo, vertex->ng, vertex->back);
 #endif
-    const Colour radiance =
-        path_light(scene, &path->colours, found->flags, surface_emission(scene, material, s->uv0, s->uv1));
+    const Colour radiance = path_light(scene, &path->colours, found->flags,
+                                       surface_emission(scene, material, s->uv0, s->uv1, surface_covered(s)));
     path_finds(path, colour_scale(colour_mul(path->throughput, radiance), weight), tally);
 #else
     (void)scene, (void)path, (void)vertex, (void)lit, (void)tally;

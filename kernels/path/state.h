@@ -38,7 +38,8 @@ typedef struct PathState {
     Ray ray;         /* the edge */
     uint edge;       /* its number: the camera's ray is edge 1 */
     uint traits;     /* PATH_STRAIGHT, PATH_SPECULAR, PATH_CAUSTIC */
-    float pdf; /* solid-angle density of the direction; 0: delta or camera, found by no other sampling */
+    float pdf;       /* solid-angle density of the direction; 0: delta or camera, found by no other sampling;
+                        photons: infinite */
 #if TRIAD_LIGHT_TREE
     Vec3 normal; /* of the Receiver at the last vertex: path_face() */
 #endif

@@ -21,11 +21,37 @@ typedef struct Vertex {
 #endif
 } Vertex;
 
+/* How much of the surface the vertex stands for: of the solid angle in which the samples of its bin so far
+ * have looked for it, an equal share of each. It shrinks with every sample, and with it what colours are
+ * averaged over, so that the picture is the same in the limit. Of a pixel, where nothing blurred since the
+ * camera; the edges before the last are left out, and the slant of the surface, since a mean over less is
+ * right too. A factor from 1 to 4 is left to chance: it chooses between two levels of a texture, which have
+ * texels of areas 1 to 4. */
+TRIAD_FUNCTION float path_covers(const Scene* scene, const PathState* path, const Hit* hit) {
+#if TRIAD_TEXTURE_LEVELS
+    global const Frame* frame = scene->frame;
+    const Sampler s = path_sampler(path);
+    const float index = (float)random_reverse_bits(s.index_reversed); /* within a half of the film */
+    const float samples = fma(2.0f, index, (float)(frame->bins[0] * frame->bins[1]));
+    const float chance =
+        random_float(random_mix(random_mix(s.key0 ^ s.index_reversed) + 0x9e3779b9u * path->edge));
+    float area = math_square(hit->t);
+    if (path->pdf > 0.0f)
+        area /= path->pdf;
+    else
+        area = frame->camera.pixel_area * (frame->camera.projection == CAMERA_ORTHOGRAPHIC ? 1.0f : area);
+    return area / samples * fma(3.0f, chance, 1.0f);
+#else
+    (void)scene, (void)path, (void)hit;
+    return 0.0f;
+#endif
+}
+
 /* What lies there. */
 TRIAD_FUNCTION Vertex path_look(const Scene* scene, const PathState* path, const Hit* hit) {
     Vertex v;
     v.hit = *hit;
-    v.surface = surface_make(scene, hit);
+    v.surface = surface_make(scene, hit, path_covers(scene, path, hit));
 #if TRIAD_HERO
     v.surface.base_values = path_colour(&path->colours, v.surface.base_colour);
     v.surface.specular_values = path_colour(&path->colours, v.surface.specular_colour);

@@ -40,7 +40,7 @@ TRIAD_FUNCTION Vec3 light_triangle_radiance(const Scene* scene, const Light* lig
         Vec2 uv0, uv1;
         Vec4 colour;
         surface_attributes(scene, &g, &t, b.x, b.y, &uv0, &uv1, &colour);
-        radiance = surface_emission(scene, m, uv0, uv1);
+        radiance = surface_emission(scene, m, uv0, uv1, vec2_splat(0.0f));
     }
 #endif
 #if TRIAD_ALPHA_TEST

@@ -58,7 +58,8 @@ TRIAD_FUNCTION void surface_core(const Scene* scene, global const Material* m, V
     s->specular_colour = VEC3_OF(m->specular_colour);
 #if TRIAD_TEXTURES
     const Vec4 one = vec4_splat(1.0f);
-    const Vec4 base = texture_use_sample(scene, m->base_colour_use, s->uv0, s->uv1, one);
+    const Vec2 covered = surface_covered(s);
+    const Vec4 base = texture_use_mean(scene, m->base_colour_use, s->uv0, s->uv1, covered, one);
     s->base_colour = vec3_mul(s->base_colour, vec4_xyz(base));
     if (m->metallic_roughness_use != TRIAD_NONE) {
         const Vec4 mr = texture_use_sample(scene, m->metallic_roughness_use, s->uv0, s->uv1, one);
@@ -67,12 +68,13 @@ TRIAD_FUNCTION void surface_core(const Scene* scene, global const Material* m, V
     }
     s->transmission *= texture_use_sample(scene, m->transmission_use, s->uv0, s->uv1, one).x;
     s->specular *= texture_use_sample(scene, m->specular_use, s->uv0, s->uv1, one).w;
-    const Vec4 specular = texture_use_sample(scene, m->specular_colour_use, s->uv0, s->uv1, one);
+    const Vec4 specular = texture_use_mean(scene, m->specular_colour_use, s->uv0, s->uv1, covered, one);
     s->specular_colour = vec3_mul(s->specular_colour, vec4_xyz(specular));
 #endif
 }
 
-TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
+/* covers: area of the surface over which colours may be averaged. */
+TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit, float covers) {
     const float u = hit->u, v = hit->v;
     const uint instance = hit->instance;
     Surface s;
@@ -122,6 +124,13 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
 
     Vec4 colour;
     surface_attributes(scene, &g, &t, u, v, &s.uv0, &s.uv1, &colour);
+#if TRIAD_TEXTURE_LEVELS
+    const float per_area = covers / vec3_length(product); /* of the triangle, whose area may be 0 */
+    s.covered = vec2_make(per_area * surface_uv_area(scene, g.uv[0], &t),
+                          per_area * surface_uv_area(scene, g.uv[1], &t));
+#else
+    (void)covers;
+#endif
     Vec3 ns = surface_smooth_normal(scene, &g, &t, u, v, instance, n);
     global const Material* m = scene->materials + g.material;
     const Vec3 smooth_normal = ns;
@@ -141,11 +150,15 @@ TRIAD_FUNCTION Surface surface_make(const Scene* scene, const Hit* hit) {
     return s;
 }
 
-/* Radiance that the material emits at a point with these UVs. */
-TRIAD_FUNCTION Vec3 surface_emission(const Scene* scene, global const Material* m, Vec2 uv0, Vec2 uv1) {
+/* Radiance that the material emits at a point with these UVs; covered: as Surface.covered. */
+TRIAD_FUNCTION Vec3 surface_emission(const Scene* scene, global const Material* m, Vec2 uv0, Vec2 uv1,
+                                     Vec2 covered) {
     Vec3 e = VEC3_OF(m->emission);
 #if TRIAD_TEXTURES
-    e = vec3_mul(e, vec4_xyz(texture_use_sample(scene, m->emission_use, uv0, uv1, vec4_splat(1.0f))));
+    const Vec4 texel = texture_use_mean(scene, m->emission_use, uv0, uv1, covered, vec4_splat(1.0f));
+    e = vec3_mul(e, vec4_xyz(texel));
+#else
+    (void)scene, (void)uv0, (void)uv1, (void)covered;
 #endif
     return e;
 }

@@ -14,6 +14,16 @@ TRIAD_FUNCTION Vec4 surface_texture(const Scene* scene, uint use, const Surface*
 #endif
 }
 
+/* Of a colour: a mean. */
+TRIAD_FUNCTION Vec3 surface_colour_texture(const Scene* scene, uint use, const Surface* s) {
+#if TRIAD_TEXTURES
+    return vec4_xyz(texture_use_mean(scene, use, s->uv0, s->uv1, surface_covered(s), vec4_splat(1.0f)));
+#else
+    (void)scene, (void)use, (void)s;
+    return vec3_splat(1.0f);
+#endif
+}
+
 #if TRIAD_CLEARCOAT
 /* The varnish alone; n as of surface_extend(). Where there is none, s->coat is 0. */
 TRIAD_FUNCTION void surface_coat(const Scene* scene, global const Material* m, const Geometry* g,
@@ -51,7 +61,7 @@ TRIAD_FUNCTION void surface_extend(const Scene* scene, global const Material* m,
     s->sheen = vec3_splat(0.0f);
     if (has) {
         global const SheenBlock* b = &e->sheen;
-        s->sheen = vec3_mul(VEC3_OF(b->colour), vec4_xyz(surface_texture(scene, b->colour_use, s, one)));
+        s->sheen = vec3_mul(VEC3_OF(b->colour), surface_colour_texture(scene, b->colour_use, s));
         s->sheen_roughness = b->roughness * surface_texture(scene, b->roughness_use, s, one).w;
     }
 #endif
@@ -87,8 +97,7 @@ TRIAD_FUNCTION void surface_extend(const Scene* scene, global const Material* m,
     if (has && e->diffuse_transmission.factor > 0.0f) {
         global const DiffuseTransmissionBlock* b = &e->diffuse_transmission;
         s->through = b->factor * surface_texture(scene, b->factor_use, s, one).w;
-        s->through_colour =
-            vec3_mul(VEC3_OF(b->colour), vec4_xyz(surface_texture(scene, b->colour_use, s, one)));
+        s->through_colour = vec3_mul(VEC3_OF(b->colour), surface_colour_texture(scene, b->colour_use, s));
     }
 #endif
     (void)n, (void)u, (void)v, (void)g, (void)t, (void)instance, (void)one, (void)e;

@@ -18,6 +18,9 @@ typedef struct Surface {
     uint geometry, material;
     uint touching; /* of a body's surface: the material of the body on the other side, or TRIAD_NONE */
     Vec2 uv0, uv1;
+#if TRIAD_TEXTURE_LEVELS
+    Vec2 covered; /* area in each UV set over which colours may be averaged: path_covers() */
+#endif
     Vec3 base_colour;
     float metallic, roughness, transmission, specular;
     Vec3 specular_colour;
@@ -66,6 +69,25 @@ TRIAD_FUNCTION Vec4 surface_colour(const Scene* scene, uint first, const Triangl
     const Vec4 b = vec4_scale(vec4_load(scene->colours, first + t->vertex[1]), u);
     const Vec4 c = vec4_scale(vec4_load(scene->colours, first + t->vertex[2]), v);
     return vec4_add(vec4_add(a, b), c);
+}
+
+#if TRIAD_TEXTURE_LEVELS
+/* Twice the area of the triangle in a UV set, whose coordinates begin at `first`; 0: there is none. */
+TRIAD_FUNCTION float surface_uv_area(const Scene* scene, uint first, const Triangle* t) {
+    if (first == TRIAD_NONE) return 0.0f;
+    const Vec2 a = vec2_load(scene->uvs, first + t->vertex[0]);
+    const Vec2 b = vec2_sub(vec2_load(scene->uvs, first + t->vertex[1]), a),
+               c = vec2_sub(vec2_load(scene->uvs, first + t->vertex[2]), a);
+    return fabs(b.x * c.y - b.y * c.x);
+}
+#endif
+TRIAD_FUNCTION Vec2 surface_covered(const Surface* s) {
+#if TRIAD_TEXTURE_LEVELS
+    return s->covered;
+#else
+    (void)s;
+    return vec2_splat(0.0f);
+#endif
 }
 
 /* UVs and vertex colour of a point, barycentric weights u, v of corners 1 and 2. */

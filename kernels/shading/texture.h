@@ -53,14 +53,42 @@ TRIAD_FUNCTION Vec4 texture_sample(const Scene* scene, uint texture, Vec2 uv) {
     return vec4_blend(vec4_blend(a, b, ax), vec4_blend(c, d, ax), ay);
 }
 
-/* Value of a texture use at the two UV sets of a point; `missing` when the use is TRIAD_NONE. */
+/* Where a use looks into its texture, at the two UV sets of a point. */
+TRIAD_FUNCTION Vec2 texture_use_place(const TextureUse* t, Vec2 uv0, Vec2 uv1) {
+    const Vec2 uv = t->uv_set ? uv1 : uv0;
+    return vec2_make(fma(t->m[0], uv.x, fma(t->m[1], uv.y, t->m[2])),
+                     fma(t->m[3], uv.x, fma(t->m[4], uv.y, t->m[5])));
+}
+
+/* Value of a texture use at a point; `missing` when the use is TRIAD_NONE. */
 TRIAD_FUNCTION Vec4 texture_use_sample(const Scene* scene, uint use, Vec2 uv0, Vec2 uv1, Vec4 missing) {
     if (use == TRIAD_NONE) return missing;
     const TextureUse t = scene->texture_uses[use];
-    const Vec2 uv = t.uv_set ? uv1 : uv0;
-    return texture_sample(scene, t.texture,
-                          vec2_make(fma(t.m[0], uv.x, fma(t.m[1], uv.y, t.m[2])),
-                                    fma(t.m[3], uv.x, fma(t.m[4], uv.y, t.m[5]))));
+    return texture_sample(scene, t.texture, texture_use_place(&t, uv0, uv1));
+}
+
+/* The level of which a lookup, four texels, covers `texels` of the image's, or less: a texel of a level
+ * covers four of the one before. */
+TRIAD_FUNCTION uint texture_level(float texels, uint levels) {
+    if (!(texels >= 16.0f)) return 0u;
+    return math_min_uint(((as_uint(texels) >> 23) - 129u) >> 1,
+                         levels); /* half of the exponent of a quarter */
+}
+
+/* The same of a colour, of which a mean is asked for: over areas of `covered` in the two UV sets. */
+TRIAD_FUNCTION Vec4 texture_use_mean(const Scene* scene, uint use, Vec2 uv0, Vec2 uv1, Vec2 covered,
+                                     Vec4 missing) {
+#if TRIAD_TEXTURE_LEVELS
+    if (use == TRIAD_NONE) return missing;
+    const TextureUse t = scene->texture_uses[use];
+    global const Texture* image = scene->textures + t.texture;
+    const float scale = fabs(t.m[0] * t.m[4] - t.m[1] * t.m[3]) * (float)image->width * (float)image->height;
+    const uint level = texture_level((t.uv_set ? covered.y : covered.x) * scale, image->levels);
+    return texture_sample(scene, t.texture + level, texture_use_place(&t, uv0, uv1));
+#else
+    (void)covered;
+    return texture_use_sample(scene, use, uv0, uv1, missing);
+#endif
 }
 
 #endif

@@ -16,14 +16,16 @@ TRIAD_TYPES_BEGIN
 #define WRAP_MIRROR 1u
 #define WRAP_CLAMP 2u
 
-/* One image with one sampler. Row 0 is the top row, (u, v) = (0, 0) its upper left corner, as in glTF. */
+/* One image with one sampler. Row 0 is the top row, (u, v) = (0, 0) its upper left corner, as in glTF. The
+ * `levels` textures after it are the same picture, each with half as many texels along its longer side: means
+ * of what they cover, down to a single one. */
 typedef struct Texture {
     uint width, height;
     uint first_texel; /* index into the texel array, in uints */
     uint format;
     uint wrap_u, wrap_v;
     uint linear; /* 1 bilinear, 0 nearest */
-    uint unused;
+    uint levels; /* 0: none */
 } Texture;
 TRIAD_SIZE(Texture, 32);
 

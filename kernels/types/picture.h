@@ -23,10 +23,10 @@ typedef struct Camera {
     float up[3];
     uint projection;
     float forward[3];
-    uint unused;
-    float extent[2]; /* half width and half height of the image plane at distance 1 (orthographic: in scene
-                        units) */
-    float pixels[2]; /* width and height of the full picture */
+    float pixel_area; /* of a pixel on the image plane at distance 1 (orthographic: in scene units) */
+    float extent[2];  /* half width and half height of the image plane at distance 1 (orthographic: in scene
+                         units) */
+    float pixels[2];  /* width and height of the full picture */
 } Camera;
 TRIAD_SIZE(Camera, 80);
 

@@ -104,6 +104,9 @@ inline const Fault faults[] = {
      "coat_emission(scene, s, vertex->wo, vertex->ng, vertex->back)", "1.0f", "D2e"},
     {"lamp_that_lights_without_its_varnish", "shading/light.h",
      "coat_light(scene, light, b, vec3_negate(s->direction))", "1.0f", "D2e"},
+    // Of textures.
+    {"levels_by_the_side_of_their_texels", "shading/texture.h", "- 129u) >> 1", "- 129u)", "I1"},
+    {"means_that_do_not_shrink", "path/surface.h", "area / samples", "area", "I2"},
 };
 
 }  // namespace triad

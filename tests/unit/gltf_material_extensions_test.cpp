@@ -229,7 +229,7 @@ TEST(GltfMaterialExtensions, bodies_that_light_gets_into_diffusely_are_solid) {
                     {"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", c.diffuse}}}})
                 .load();
         PackedSurfaces packed;
-        pack_materials(scene, packed);
+        pack_materials(scene, {}, packed);
         EXPECT_EQ((packed.materials.at(0).flags & MATERIAL_SOLID) != 0, c.solid) << c.thickness << c.diffuse;
         EXPECT_EQ(facts_of(scene).transmission, c.transmits) << c.thickness << c.diffuse;
         EXPECT_EQ(facts_of(scene).diffuse_transmission, c.diffuse > 0);

@@ -98,7 +98,7 @@ TEST(LightSpectrum, one_spectrum_is_packed_once_and_only_for_lights) {
         PackedSurfaces packed;
         RenderSettings settings;
         settings.spectral = full ? Spectral::full : Spectral::automatic;
-        pack_materials(scene, packed);
+        pack_materials(scene, {}, packed);
         pack_spectrum(scene, settings, packed);
         EXPECT_EQ(packed.light_spectra.size(), 2u);
         EXPECT_EQ(packed.spectrum.size(), full ? 3u : 0u) << "without wavelengths colours say it all";

@@ -1,0 +1,18 @@
+#pragma once
+/// Levels of textures: smaller and smaller means of an image, for lookups that stand for many texels
+/// (docs/shading.md, "Textures"). Made by pack_materials().
+#include <cstdint>
+
+#include "scene/scene.h"
+
+namespace triad {
+
+/// Whether a large image is among them.
+bool may_have_levels(const Image& image);
+/// Whether means of its colours are the colours of many of its points: not where coverage leaves some out.
+bool may_have_levels(const Material& material);
+
+/// What the levels of a scene's textures take, packed.
+std::uint64_t level_bytes(const Scene& scene);
+
+}  // namespace triad
