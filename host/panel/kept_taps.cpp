@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
@@ -48,22 +49,24 @@ bool is_sound(const TapTable& t, const Panel& panel, const TapDesign& design) {
            });
 }
 
-std::optional<TapTable> read(const fs::path& path) {
-    try {
-        std::ifstream file(path);
-        if (path.empty() || !file) return {};
-        return nlohmann::json::parse(file).get<TapTable>();
-    } catch (const nlohmann::json::exception&) {  // damaged: designed again
-        return {};
-    }
-}
-
 }  // namespace
+
+std::optional<TapTable> taps_of_json(std::string_view text, const Panel& panel, const TapDesign& design) {
+    try {
+        const auto table = nlohmann::json::parse(text).get<TapTable>();
+        if (is_sound(table, panel, design)) return table;
+    } catch (const nlohmann::json::exception&) {
+    }
+    return {};
+}
 
 TapTable kept_taps(const Panel& panel, double ppd, const TapDesign& design) {
     if (panel.advice.full_pixel) return design_taps(panel, ppd, design);
     const fs::path path = path_of(panel, ppd, design);
-    if (const auto kept = read(path); kept && is_sound(*kept, panel, design)) return *kept;
+    if (std::ifstream file(path); !path.empty() && file) {
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        if (const auto kept = taps_of_json(text, panel, design)) return *kept;  // else designed again
+    }
     const TapTable table = design_taps(panel, ppd, design);
     if (path.empty()) return table;
     try {
