@@ -50,7 +50,7 @@ TRIAD_FUZZ_TARGET(film) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const Film film = film_of(text.substr(0, end), text.substr(std::min(end + 1, text.size())));
     if (film.sums.empty()) return;
-    const auto path = fuzz::file_of({});
+    const auto path = fuzz::file_of("");
     save_film(path, film);
     read(path);
     const Film back = load_film(path);
