@@ -132,8 +132,8 @@ Exit run(const std::string& path, int scene_index, bool strict, std::optional<un
     return Exit::done;
 }
 
-/// What is refused is told in the JSON, too. A file that is there is left as it is: it may be one that the scene
-/// refers to, which nobody knows of a scene that cannot be read.
+/// What is refused is told in the JSON, too. A file that is there is left as it is: it may be one that the
+/// scene refers to, which nobody knows of a scene that cannot be read.
 void tell_refusal(const std::string& path, const Error& error, const std::string& json) {
     std::error_code none;
     if (json.empty() || (json != "-" && std::filesystem::exists(json, none))) return;

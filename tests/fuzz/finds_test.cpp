@@ -42,7 +42,8 @@ std::vector<std::string> names() {
     return all;
 }
 
-// Targets enter their names before main, from other files: the list is read when tests are made of it, after that.
+// Targets enter their names before main, from other files: the list is read when tests are made of it, after
+// that.
 INSTANTIATE_TEST_SUITE_P(All, FuzzTarget, testing::ValuesIn(names()),
                          [](const auto& each) { return each.param; });
 

@@ -1,10 +1,12 @@
-// What sanitizers are told, in every program that is built with them. Suppressed is third-party code alone, by name.
+// What sanitizers are told, in every program that is built with them. Suppressed is third-party code alone,
+// by name.
 
 extern "C" {
 
 const char* __asan_default_options() {
     return "detect_stack_use_after_return=1"
-           ":alloc_dealloc_mismatch=0"      // Triad's own `delete` (base/memory_limit.h) frees what their `new` gave
+           ":alloc_dealloc_mismatch=0"  // Triad's own `delete` (base/memory_limit.h) frees what their `new`
+                                        // gave
            ":allocator_may_return_null=1";  // what is too large is a std::bad_alloc, which has its sentence
 }
 

@@ -89,9 +89,9 @@ TEST(CommandLine, a_pipe_where_a_file_is_due_is_named_and_does_not_hang) {
     const TemporaryFolder folder;
     const std::string pipe = (folder / "pipe").string();
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    for (const std::string& command : {"resolve " + pipe + " -o " + (folder / "a.png").string(),
-                                       "info " + pipe, "render " + pipe, "render --resume " + pipe,
-                                       "resolve a.exr -o a.png --panel " + pipe})
+    for (const std::string& command :
+         {"resolve " + pipe + " -o " + (folder / "a.png").string(), "info " + pipe, "render " + pipe,
+          "render --resume " + pipe, "resolve a.exr -o a.png --panel " + pipe})
         expect(command, 2, pipe + " is not a regular file", "timeout 60");
 }
 

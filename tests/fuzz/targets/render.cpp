@@ -1,5 +1,5 @@
-// A scene is loaded, its trees are built, and 4 x 4 pixels of it are rendered on the CPU: by the program with everything
-// compiled in, since compiling one for each scene takes longest.
+// A scene is loaded, its trees are built, and 4 x 4 pixels of it are rendered on the CPU: by the program with
+// everything compiled in, since compiling one for each scene takes longest.
 #include <cstdlib>
 
 #include "device/device.h"

@@ -41,7 +41,8 @@ std::map<std::string, Target>& targets() {
 std::filesystem::path file_of(std::string_view bytes) {
     static const TemporaryFolder folder;
     const std::filesystem::path path = folder / "input";
-    std::ofstream(path, std::ios::binary | std::ios::trunc).write(bytes.data(), std::streamsize(bytes.size()));
+    std::ofstream(path, std::ios::binary | std::ios::trunc)
+        .write(bytes.data(), std::streamsize(bytes.size()));
     return path;
 }
 

@@ -38,17 +38,17 @@ Scene load(const std::filesystem::path& path);
 }  // namespace triad::fuzz
 
 #ifdef TRIAD_LIBFUZZER
-#define TRIAD_FUZZ_TARGET(name)                                                                \
-    static void name##_target(triad::fuzz::Input input);                                                \
-    extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {        \
-        triad::fuzz::answer(name##_target, {data, size});                                               \
-        return 0;                                                                              \
-    }                                                                                          \
+#define TRIAD_FUZZ_TARGET(name)                                                         \
+    static void name##_target(triad::fuzz::Input input);                                \
+    extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) { \
+        triad::fuzz::answer(name##_target, {data, size});                               \
+        return 0;                                                                       \
+    }                                                                                   \
     static void name##_target(triad::fuzz::Input input)
 #else
-#define TRIAD_FUZZ_TARGET(name)                                                                \
-    static void name##_target(triad::fuzz::Input input);                                                \
-    [[maybe_unused]] static const bool name##_is_target =                                      \
-        triad::fuzz::targets().emplace(#name, name##_target).second;                                    \
+#define TRIAD_FUZZ_TARGET(name)                                      \
+    static void name##_target(triad::fuzz::Input input);             \
+    [[maybe_unused]] static const bool name##_is_target =            \
+        triad::fuzz::targets().emplace(#name, name##_target).second; \
     static void name##_target(triad::fuzz::Input input)
 #endif
