@@ -11,7 +11,7 @@ template <class Number, class Json>
 Number whole_number(const Json& json) {
     using Stored = std::conditional_t<std::is_signed_v<Number>, typename Json::number_integer_t,
                                       typename Json::number_unsigned_t>;
-    return Number(json.get_ref<const Stored&>());
+    return Number(json.template get_ref<const Stored&>());
 }
 
 }  // namespace triad

@@ -16,7 +16,6 @@
 namespace fs = std::filesystem;
 
 namespace triad {
-
 namespace {
 
 using nlohmann::json;
