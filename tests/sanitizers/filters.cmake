@@ -3,7 +3,7 @@
 set(unit_sanitized "-MemoryLimit*:ReplayLinks*:DyingDrivers*")
 # Of `image` the host's own work: the command line, films, resuming, merging, captures, faults of devices. Left out are long
 # renders, which are kernels' time, and limits of address space, which sanitizers reserve.
-set(image_sanitized "RenderCommand.*:ResumeCommand.*:ReconstructCommand.*:DevicesCommand.*:PhotonCommand.*:Frames.*:ImageLightCommand.*")
+set(image_sanitized "RenderCommand.*:ResumeCommand.*:ReconstructCommand.*:Frames.*:ImageLightCommand.*")
 set(image_sanitized_rest "-${image_sanitized}:ShellLimits.*")
 set(device_sanitized "*")
 set(fuzz_sanitized "*")
