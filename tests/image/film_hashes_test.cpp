@@ -125,7 +125,8 @@ std::string name_of_way(const testing::TestParamInfo<OtherWay>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Some, FilmHashesOfOtherWays, testing::ValuesIn(other_ways(16)), name_of_way);
-// All of them take three times as long as the table, nearly all of it compilers' time: the label long has them.
+// All of them take three times as long as the table, nearly all of it compilers' time: the label long has
+// them.
 INSTANTIATE_TEST_SUITE_P(DISABLED_All, FilmHashesOfOtherWays, testing::ValuesIn(other_ways(1)), name_of_way);
 
 /// The same film, in several pieces on a device that allocates little.
