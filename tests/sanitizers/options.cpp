@@ -12,6 +12,8 @@ const char* __asan_default_options() {
 
 const char* __ubsan_default_options() { return "halt_on_error=1:print_stacktrace=1"; }
 
+const char* __lsan_default_options() { return "print_suppressions=0"; }
+
 const char* __lsan_default_suppressions() {
     return "leak:libpocl\n"
            "leak:libLLVM\n";
