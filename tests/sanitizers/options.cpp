@@ -3,11 +3,12 @@
 
 extern "C" {
 
+// Triad's own `delete` (base/memory_limit.h) frees what the sanitizer's `new` gave. What is too large is a
+// std::bad_alloc, which has its sentence. Leaks are looked for by fuzz targets: the sanitizer's search for
+// them stops all threads when a program ends, and crashes on those of PoCL.
 const char* __asan_default_options() {
-    return "detect_stack_use_after_return=1"
-           ":alloc_dealloc_mismatch=0"  // Triad's own `delete` (base/memory_limit.h) frees what their `new`
-                                        // gave
-           ":allocator_may_return_null=1";  // what is too large is a std::bad_alloc, which has its sentence
+    return "detect_stack_use_after_return=1:alloc_dealloc_mismatch=0:allocator_may_return_null=1:detect_"
+           "leaks=0";
 }
 
 const char* __ubsan_default_options() { return "halt_on_error=1:print_stacktrace=1"; }
