@@ -1,7 +1,6 @@
 // What the command line promises: exit codes, and sentences that name what is wrong. Nothing here needs a
 // device.
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -83,16 +82,6 @@ TEST(CommandLine, missing_files_are_scene_errors) {
     expect("info /no/such/file.glb", 2, "/no/such/file.glb");
     expect("merge /no/such.film -o /tmp/x.triadfilm", 2, "/no/such.film");
     expect("compare /no/such.exr /no/such.exr", 2, "/no/such.exr");
-}
-
-TEST(CommandLine, a_pipe_where_a_file_is_due_is_named_and_does_not_hang) {
-    const TemporaryFolder folder;
-    const std::string pipe = (folder / "pipe").string();
-    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-    for (const std::string& command :
-         {"resolve " + pipe + " -o " + (folder / "a.png").string(), "info " + pipe, "render " + pipe,
-          "render --resume " + pipe, "resolve a.exr -o a.png --panel " + pipe})
-        expect(command, 2, pipe + " is not a regular file", "timeout 60");
 }
 
 TEST(CommandLine, what_info_refuses_it_tells_in_its_json) {
