@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/hash.h"
+#include "base/whole_number.h"
 
 namespace triad {
 namespace {
@@ -13,6 +14,9 @@ namespace {
 using json = nlohmann::json;
 using Refuse = std::function<void(const std::string&)>;
 using ContentAt = std::function<Recording::Content(std::size_t)>;
+
+/// What writes JSON calls itself for every level.
+constexpr int depth_cap = 16;
 
 /// Values are bytes, which text in JSON cannot be.
 std::string hex_of(const std::string& bytes) {
@@ -47,7 +51,7 @@ json to_json(const Recording::Argument& argument) {
 Recording::Argument argument_of(const json& argument, const Refuse& refuse) {
     if (argument.is_null()) return Recording::NoMemory{};
     if (argument.is_string()) return bytes_of(argument.get<std::string>(), refuse);
-    return argument.get<std::size_t>();
+    return whole_number<std::size_t>(argument);
 }
 
 // Short: there are many of them. The number of their members tells them apart.
@@ -62,7 +66,7 @@ json to_json(const Recording::Command& command, ContentTable& contents) {
 Recording::Command command_of(const json& command, const ContentAt& content_at, const Refuse& refuse) {
     if (!command.is_array() || command.empty() || command.size() == 2 || command.size() > 4)
         refuse("a command is no fill, no write and no launch");
-    const auto number = [&](std::size_t i) { return command.at(i).get<std::uint64_t>(); };
+    const auto number = [&](std::size_t i) { return whole_number<std::uint64_t>(command.at(i)); };
     if (command.size() == 1) return Recording::FillZero{number(0)};
     if (command.size() == 3) return Recording::Write{number(0), number(1), content_at(number(2))};
     return Recording::Launch{number(0), number(1), number(2), number(3)};
@@ -77,9 +81,10 @@ json to_json(const CaptureOrigin& origin) {
 
 CaptureOrigin origin_of(const json& origin) {
     const auto text = [&](const char* key) { return origin.at(key).get<std::string>(); };
-    return {
-        text("triad"),    text("command"),          text("device"), text("driver"),
-        text("platform"), text("platform_version"), text("type"),   origin.at("local").get<std::uint64_t>()};
+    return {text("triad"),    text("command"),
+            text("device"),   text("driver"),
+            text("platform"), text("platform_version"),
+            text("type"),     whole_number<std::uint64_t>(origin.at("local"))};
 }
 
 Recording::Content text_content(const std::string& text) {
@@ -94,10 +99,10 @@ std::string text_of(const Recording::Content& content) {
 void add_memories(Recording& work, const json& header, const ContentAt& content_at) {
     for (const json& memory : header.at("memories")) {
         Recording::Memory& added = work.memories.emplace_back();
-        added.bytes = memory.at("bytes").get<std::uint64_t>();
+        added.bytes = whole_number<std::uint64_t>(memory.at("bytes"));
         added.read_only = memory.at("read_only").get<bool>();
         if (!memory.at("content").is_null())
-            added.content = content_at(memory.at("content").get<std::size_t>());
+            added.content = content_at(whole_number<std::size_t>(memory.at("content")));
     }
 }
 
@@ -106,8 +111,10 @@ CapturedArray array_of(const json& array, const ContentAt& content_at, const Ref
     const auto found = std::find(std::begin(captured_array_names), std::end(captured_array_names), name);
     if (found == std::end(captured_array_names)) refuse("its film has an array of an unknown kind");
     return {CapturedArray::What(found - std::begin(captured_array_names)),
-            array.at("memory").get<std::size_t>(), array.at("first_pixel").get<std::uint64_t>(),
-            array.at("pixels").get<std::uint64_t>(), content_at(array.at("content").get<std::size_t>())};
+            whole_number<std::size_t>(array.at("memory")),
+            whole_number<std::uint64_t>(array.at("first_pixel")),
+            whole_number<std::uint64_t>(array.at("pixels")),
+            content_at(whole_number<std::size_t>(array.at("content")))};
 }
 
 }  // namespace
@@ -162,20 +169,23 @@ std::string capture_header(const Capture& capture, ContentTable& contents) {
 Capture capture_of_header(const std::string& text, const ContentAt& content_at, const Refuse& refuse) {
     Capture capture;
     try {
-        const json header = json::parse(text);
+        const json header = json::parse(text, [&](int depth, json::parse_event_t, json&) {
+            if (depth > depth_cap) refuse("its header nests deeper than any");
+            return true;
+        });
         capture.origin = origin_of(header.at("origin"));
         const json& film = header.at("film");
-        capture.width = film.at("width").get<std::uint64_t>();
-        capture.height = film.at("height").get<std::uint64_t>();
-        capture.bins = film.at("bins").get<std::uint64_t>();
+        capture.width = whole_number<std::uint64_t>(film.at("width"));
+        capture.height = whole_number<std::uint64_t>(film.at("height"));
+        capture.bins = whole_number<std::uint64_t>(film.at("bins"));
         Recording& work = capture.work;
         for (const json& source : header.at("sources"))
             work.sources.push_back({source.at("path").get<std::string>(),
-                                    text_of(content_at(source.at("text").get<std::size_t>())),
+                                    text_of(content_at(whole_number<std::size_t>(source.at("text")))),
                                     source.at("options").get<Options>()});
         for (const json& function : header.at("functions"))
             work.functions.push_back(
-                {function.at("source").get<std::size_t>(), function.at("name").get<std::string>()});
+                {whole_number<std::size_t>(function.at("source")), function.at("name").get<std::string>()});
         add_memories(work, header, content_at);
         for (const json& list : header.at("arguments")) {
             auto& arguments = work.argument_lists.emplace_back();

@@ -1,6 +1,7 @@
 // triad info: what is in a scene or a film, before any device is asked.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -133,6 +134,15 @@ Exit run(const std::string& path, int scene_index, bool strict, std::optional<un
     return Exit::done;
 }
 
+/// What is refused is told in the JSON, too. A file that is there is left as it is: it may be one that the
+/// scene refers to, which nobody knows of a scene that cannot be read.
+void tell_refusal(const std::string& path, const Error& error, const std::string& json) {
+    std::error_code none;
+    if (json.empty() || (json != "-" && std::filesystem::exists(json, none))) return;
+    write_report(json, "info", nullptr,
+                 Json::array({{{"file", path}, {"error", error.what()}, {"exit", int(error.exit())}}}));
+}
+
 }  // namespace
 
 void add_info(CLI::App& app, Exit& exit) {
@@ -156,8 +166,13 @@ void add_info(CLI::App& app, Exit& exit) {
     command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
     command->callback([o, &exit] {
         check_outputs({o->json}, {o->path});
-        exit = is_film(o->path) ? info_film(o->path, o->json)
-                                : run(o->path, o->scene, o->strict, o->max_texture, o->json);
+        try {
+            exit = is_film(o->path) ? info_film(o->path, o->json)
+                                    : run(o->path, o->scene, o->strict, o->max_texture, o->json);
+        } catch (const Error& error) {
+            tell_refusal(o->path, error, o->json);
+            throw;
+        }
     });
 }
 

@@ -86,7 +86,9 @@ void add_bench_suite(CLI::App& bench, Exit& exit) {
     declare(bench, *o);
     auto list = std::make_shared<bool>();
     bench.add_flag("--list", *list, "Print the suite's scenes with their options of triad render, and end");
-    const std::vector<CLI::Option*> options = bench.get_options();
+    // Without that of help, which every command gets anew (add_commands).
+    const std::vector<CLI::Option*> options =
+        bench.get_options([&](const CLI::Option* option) { return option != bench.get_help_ptr(); });
     bench.parse_complete_callback([options, &bench] {
         if (bench.get_subcommands().empty()) return;
         for (const CLI::Option* option : options)

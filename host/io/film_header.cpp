@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/whole_number.h"
+
 namespace triad {
 namespace {
 
@@ -9,7 +11,7 @@ using json = nlohmann::json;
 
 json to_json(const SampleRange& range) { return {range.begin, range.end}; }
 SampleRange range_of(const json& range) {
-    return {range.at(0).get<std::uint64_t>(), range.at(1).get<std::uint64_t>()};
+    return {whole_number<std::uint64_t>(range.at(0)), whole_number<std::uint64_t>(range.at(1))};
 }
 
 json to_json(const FilmProgress& progress) {
@@ -26,7 +28,8 @@ FilmProgress progress_of(const json& header, ProgressSizes& sizes,
     if (progress.samples.begin >= progress.samples.end) refuse("the samples that it asks for are none");
     progress.ended = header.at("ended").get<bool>();
     progress.estimates = header.at("estimates").get<decltype(progress.estimates)>();
-    sizes = {header.at("wanted").get<std::uint64_t>(), header.at("set_errors").get<std::uint64_t>()};
+    sizes = {whole_number<std::uint64_t>(header.at("wanted")),
+             whole_number<std::uint64_t>(header.at("set_errors"))};
     return progress;
 }
 
@@ -37,7 +40,7 @@ Film film_of(const json& header, ProgressSizes& sizes, const Refuse& refuse) {
         if (header.at(key).size() != to.size()) refuse(std::string("its \"") + key + "\" is incomplete");
         std::size_t i = 0;
         for (unsigned* value : to) {
-            const auto number = header.at(key).at(i++).get<std::int64_t>();
+            const auto number = whole_number<std::int64_t>(header.at(key).at(i++));
             if (number < 0 || number > limit) refuse(std::string("its \"") + key + "\" is out of range");
             *value = unsigned(number);
         }
@@ -49,7 +52,7 @@ Film film_of(const json& header, ProgressSizes& sizes, const Refuse& refuse) {
         film.y + film.height > film.full_height)
         refuse("its crop is empty or outside its picture");
     if (film.bins() == 0) refuse("it has no bins");
-    film.quanta_log2 = header.at("quanta_log2").get<int>();
+    film.quanta_log2 = whole_number<int>(header.at("quanta_log2"));
     if (film.quanta_log2 < -126 || film.quanta_log2 > 126) refuse("its \"quanta_log2\" is out of range");
     for (const json& range : header.at("ranges")) {
         film.ranges.push_back(range_of(range));
@@ -59,12 +62,15 @@ Film film_of(const json& header, ProgressSizes& sizes, const Refuse& refuse) {
             refuse("its sample ranges are empty or out of order");
     }
     if (film.sample_count() > 0xffffffffu) refuse("it has more than 2^32 - 1 samples per pixel");
-    film.counters = header.at("counters").get<decltype(film.counters)>();
+    for (std::size_t i = 0; i < film.counters.size(); ++i)
+        film.counters[i] = whole_number<std::uint64_t>(header.at("counters").at(i));
     film.scene = header.at("scene").get<std::string>();
     film.settings = header.at("settings").get<std::string>();
     film.settings_text = header.at("settings_text").get<std::string>();
     film.devices = header.at("devices").get<std::vector<std::string>>();
-    if (header.contains("shares")) film.shares = header.at("shares").get<decltype(film.shares)>();
+    if (header.contains("shares"))
+        for (const json& number : header.at("shares"))
+            film.shares.push_back(whole_number<std::uint32_t>(number));
     if (header.contains("progress")) film.progress = progress_of(header.at("progress"), sizes, refuse);
     return film;
 }

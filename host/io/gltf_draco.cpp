@@ -34,7 +34,7 @@ std::unique_ptr<draco::Mesh> decoded(Bytes bytes, const std::string& what) {
 template <class T>
 std::vector<std::uint8_t> values_of(const draco::PointAttribute& attribute, std::uint32_t points,
                                     unsigned components, const std::string& what) {
-    std::vector<std::uint8_t> bytes(points * components * sizeof(T));
+    std::vector<std::uint8_t> bytes(std::size_t(points) * components * sizeof(T));
     T* out = reinterpret_cast<T*>(bytes.data());
     for (std::uint32_t i = 0; i < points; ++i, out += components) {
         const draco::AttributeValueIndex value = attribute.mapped_index(draco::PointIndex(i));
@@ -123,8 +123,9 @@ class CompressedPrimitive {
         for (std::uint32_t i = 0; i < mesh.num_faces(); ++i)
             for (int corner = 0; corner < 3; ++corner)
                 *out++ = mesh.face(draco::FaceIndex(i))[std::size_t(corner)].value();
-        return add_accessor({{"componentType", 5125}, {"count", mesh.num_faces() * 3}, {"type", "SCALAR"}},
-                            std::move(bytes));
+        return add_accessor(
+            {{"componentType", 5125}, {"count", std::size_t(mesh.num_faces()) * 3}, {"type", "SCALAR"}},
+            std::move(bytes));
     }
 
     json& document_;

@@ -1,6 +1,9 @@
 #pragma once
 /// Taps for a panel: the drives whose light, as the eye sees it, is nearest to the picture's
 /// (docs/subpixel.md).
+#include <optional>
+#include <string_view>
+
 #include "panel/eye.h"
 #include "panel/panel.h"
 #include "panel/taps.h"
@@ -27,6 +30,9 @@ TapTable design_taps(const Panel& panel, double ppd, const TapDesign& design = {
 
 /// The same, from the user's cache where they were designed before (cache_folder()).
 TapTable kept_taps(const Panel& panel, double ppd, const TapDesign& design = {});
+
+/// Taps as the cache keeps them; nothing where the text is damaged, or is of another panel or design.
+std::optional<TapTable> taps_of_json(std::string_view text, const Panel& panel, const TapDesign& design);
 
 /// Throws Error(usage) for ppd outside of [5, 1000] or bins outside of 1 to 16.
 void check_design(double ppd, unsigned bins_x, unsigned bins_y);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/whole_number.h"
 
 namespace triad {
 
@@ -25,18 +26,19 @@ WorkCounts work_counts_of(const std::string& text) {
     try {
         const json all = json::parse(text);
         WorkCounts counts;
-        counts.width = all.at("width").get<unsigned>(), counts.height = all.at("height").get<unsigned>();
-        counts.samples = all.at("samples").get<unsigned>();
+        counts.width = whole_number<unsigned>(all.at("width")),
+        counts.height = whole_number<unsigned>(all.at("height"));
+        counts.samples = whole_number<unsigned>(all.at("samples"));
         for (std::size_t i = 0; i < counts.rays.size(); ++i) {
             const json& r = all.at("rays").at(i);
-            const auto number = [&](std::size_t k) { return r.at(k).get<std::uint64_t>(); };
+            const auto number = [&](std::size_t k) { return whole_number<std::uint64_t>(r.at(k)); };
             counts.rays[i] = {number(0), number(1), number(2),
                               number(3), number(4), std::uint32_t(number(5))};
         }
         for (std::size_t i = 0; i < counts.edges.size(); ++i) {
             const json& e = all.at("edges").at(i);
-            counts.edges[i] = {e.at(0).get<std::uint64_t>(), e.at(1).get<std::uint64_t>(),
-                               e.at(2).get<std::uint64_t>()};
+            counts.edges[i] = {whole_number<std::uint64_t>(e.at(0)), whole_number<std::uint64_t>(e.at(1)),
+                               whole_number<std::uint64_t>(e.at(2))};
         }
         return counts;
     } catch (const json::exception& error) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/files.h"
+#include "base/whole_number.h"
 
 namespace triad {
 namespace {
@@ -45,7 +46,7 @@ std::vector<Board> boards_of(const Json& json) {
                           .rows = {},
                           .left_out = b.at("left_out")});
     for (const Json& row : json.at("rows"))
-        boards.at(row.at("board").get<std::size_t>()).rows.push_back(row_of(row));
+        boards.at(whole_number<std::size_t>(row.at("board"))).rows.push_back(row_of(row));
     return boards;
 }
 

@@ -137,7 +137,8 @@ RgbImage magnified(const Panel& panel, unsigned zoom) {
         const RgbImage more = lit(panel, 2, colour, zoom);
         for (std::size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] += more.rgb[i];
     }
-    return scaled(std::move(image), *std::max_element(image.rgb.begin(), image.rgb.end()));
+    const float brightest = *std::max_element(image.rgb.begin(), image.rgb.end());
+    return scaled(std::move(image), brightest);
 }
 
 }  // namespace triad

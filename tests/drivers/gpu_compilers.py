@@ -21,6 +21,9 @@ import gpu_targets
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Of CPUs: GPUs follow paths by path/wave_stages.cl. They need only compile.
 FOR_CPUS = {"path/wave.cl", "path/wave_full.cl"}
+# GPUs choose these only when asked to: the loop over whole paths, and the recorder of --pixel. They are half of the compilers'
+# time, so that without --long they are compiled with nothing and with everything.
+SELDOM = {"path/mega.cl", "path/mega_full.cl", "path/record.cl", "path/record_full.cl"}
 JOBS = 2  # compilers at once: the larger ones take a gigabyte
 
 
@@ -66,9 +69,16 @@ def text_key(kernels, sets, item):
     return hashlib.sha256(f"{gpu_targets.identity(target)}\0{text}".encode()).hexdigest(), defines
 
 
-def jobs(targets, programs, sets, kernels, pool):
+def sets_of(program, sets, long):
+    """Names of the sets that the program is compiled with."""
+    if program in FOR_CPUS:
+        return ["alone"]
+    return [name for name in sets if long or program not in SELDOM or name in ("none", "all")]
+
+
+def jobs(targets, programs, sets, kernels, pool, long):
     """One per target and text that its preprocessor makes; sets whose texts are equal share it."""
-    items = [(t, p, n) for t in targets for p in programs for n in (["alone"] if p in FOR_CPUS else sets)]
+    items = [(t, p, n) for t in targets for p in programs for n in sets_of(p, sets, long)]
     found = {}
     for (target, program, name), (key, defines) in zip(items, pool.map(functools.partial(text_key, kernels, sets), items)):
         job = found.setdefault((target.name, program, key), {"target": target, "program": program, "key": key,
@@ -111,7 +121,9 @@ def main():
     sets.pop(args.without, None)
     kernels = str(args.kernels)
     with concurrent.futures.ProcessPoolExecutor(JOBS) as pool:
-        work = jobs(targets, programs, sets, kernels, pool)
+        # Limits and tables are made of everything.
+        everything = args.long or args.lower or args.publish
+        work = jobs(targets, programs, sets, kernels, pool, everything)
         # The longest first: with all options.
         work.sort(key=lambda job: "all" not in job["sets"])
         for job, result in zip(work, pool.map(functools.partial(compile_job, kernels, cache), work)):
@@ -119,7 +131,7 @@ def main():
     work.sort(key=lambda job: (targets.index(job["target"]), job["program"], list(sets).index(job["sets"][0])))
 
     budgets = gpu_budgets.Budgets()
-    failures = budgets.check(work, sets, whole=not args.match and not args.without)
+    failures = budgets.check(work, sets, whole=everything and not args.match and not args.without)
     if args.lower:
         budgets.lower()
     report = gpu_report.Report(work, sets, budgets, targets)

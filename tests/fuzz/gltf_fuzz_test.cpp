@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "gltf_files.h"
 #include "io/io.h"
 
@@ -176,52 +177,12 @@ TEST(GltfFuzz, no_file_of_the_large_corpus_crashes_hangs_or_fills_the_memory) {
     for (const fs::path& file : files) expect_survived(try_to_load(file), file.string());
 }
 
-/// A small scene with most of what the loader reads: indices, normals, uvs, sparse, lights, cameras,
-/// extensions.
-std::string seed_scene() {
-    return R"({"asset":{"version":"2.0"},"scene":0,"extensionsUsed":["KHR_lights_punctual","KHR_materials_ior"],
-"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"spot":{"outerConeAngle":0.7},
-"extras":{"triad":{"spectrum":{"lines":[[450,1],[532,0.5]]}}}}]}},
-"scenes":[{"nodes":[0,2]}],"nodes":[{"mesh":0,"children":[1],"rotation":[0,0,0,1]},{"camera":0,"translation":[0,0,3]},
-{"extensions":{"KHR_lights_punctual":{"light":0}},"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,2,0,1]}],
-"cameras":[{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}}],
-"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0.25,1]},"extensions":{"KHR_materials_ior":{"ior":1.4},
-"KHR_materials_dispersion":{"dispersion":0.3},"KHR_materials_transmission":{"transmissionFactor":1},
-"KHR_materials_volume":{"thicknessFactor":1},"KHR_materials_clearcoat":{"clearcoatFactor":0.5},
-"KHR_materials_sheen":{"sheenColorFactor":[1,0.5,0.25]},
-"KHR_materials_anisotropy":{"anisotropyStrength":0.5,"anisotropyRotation":2},
-"KHR_materials_iridescence":{"iridescenceFactor":1,"iridescenceIor":1.4,"iridescenceThicknessMaximum":500},
-"KHR_materials_diffuse_transmission":{"diffuseTransmissionFactor":1,"diffuseTransmissionColorFactor":[1,0.5,1]}},
-"emissiveFactor":[1,1,1],"extras":{"triad":{"sellmeier":{"B":[1,0.2],"C":[0.01,0.02]},"priority":2,
-"spectrum":{"blackbody":3000}}}}],
-"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0,"mode":4}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,
-"componentType":5121},"values":{"bufferView":0,"byteOffset":12}}},{"bufferView":1,"byteOffset":0,"componentType":5121,"count":3,
-"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":3}],
-"buffers":[{"byteLength":39,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEC"}]})";
-}
-
-/// The same for what poses are made of: a skin, a morph target, an animation of a joint and of weights; and
-/// points.
-std::string seed_pose() {
-    return R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0,1]}],
-"nodes":[{"mesh":0,"skin":0},{"children":[2],"translation":[0,1,0]},{"translation":[0,0,1]},{"mesh":0,"weights":[0.5]}],
-"skins":[{"joints":[1,2]}],"animations":[{"samplers":[{"input":3,"output":4},{"input":3,"output":5,"interpolation":"STEP"}],
-"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},{"sampler":1,"target":{"node":0,"path":"weights"}}]}],
-"meshes":[{"weights":[0.25],"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"targets":[{"POSITION":0}]},
-{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2},"targets":[{"POSITION":0}],"mode":2}]}],
-"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":1,"componentType":5121,"count":3,"type":"VEC4"},
-{"bufferView":1,"byteOffset":12,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"},
-{"bufferView":2,"componentType":5126,"count":2,"type":"SCALAR"},{"bufferView":2,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC3"},
-{"bufferView":2,"byteOffset":32,"componentType":5126,"count":2,"type":"SCALAR"}],
-"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},{"buffer":0,"byteOffset":60,"byteLength":40}],
-"buffers":[{"byteLength":100,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAEAAAEAAAAAAAAAgH8AAP8AAAD/AAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAQAAAQEAAAAAAAACAPw=="}]})";
-}
-
-class GltfFuzzSeed : public testing::TestWithParam<std::string (*)()> {};
+/// scene: most of what the loader reads; pose: what poses are made of.
+class GltfFuzzSeed : public testing::TestWithParam<const char*> {};
 
 TEST_P(GltfFuzzSeed, random_changes_to_a_good_file_never_crash_the_loader) {
-    const std::string seed = GetParam()();
+    const auto bytes = read_file(fs::path(TRIAD_SOURCE_DIR) / "tests/fuzz/seeds/gltf_json" / GetParam());
+    const std::string seed(bytes.begin(), bytes.end());
     const fs::path file = fs::temp_directory_path() / ("triad-fuzz-" + std::to_string(::getpid()) + ".gltf");
     std::ofstream(file) << seed;
     ASSERT_NO_THROW(load_gltf(file));
@@ -257,7 +218,7 @@ TEST_P(GltfFuzzSeed, random_changes_to_a_good_file_never_crash_the_loader) {
     EXPECT_LT(loaded, 2900);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, GltfFuzzSeed, testing::Values(seed_scene, seed_pose));
+INSTANTIATE_TEST_SUITE_P(Seeds, GltfFuzzSeed, testing::Values("scene", "pose"));
 
 }  // namespace
 }  // namespace triad

@@ -147,6 +147,18 @@ TEST(CaptureFile, absurd_sizes_are_refused_before_memory_is_asked_for) {
               std::string::npos);
 }
 
+TEST(CaptureFile, a_header_that_nests_deep_is_refused_before_it_is_written_again) {
+    ContentTable table;
+    std::string header = capture_header(small_capture(), table);
+    const std::string counted = R"({"samples":4})",
+                      deep = std::string(100'000, '[') + std::string(100'000, ']');
+    header.replace(header.find(counted), counted.size(), deep);
+    const auto refuse = [](const std::string& why) { throw Error(Exit::scene, why); };
+    const auto content_at = [&](std::size_t place) { return table.contents().at(place); };
+    EXPECT_NE(sentence_of(Exit::scene, [&] { capture_of_header(header, content_at, refuse); }).find("nests"),
+              std::string::npos);
+}
+
 TEST(CaptureFile, contents_that_claim_too_much_are_refused_before_memory_is_asked_for) {
     const TemporaryFolder folder;
     const std::string bytes = bytes_of(small_capture(), folder);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "program.h"
+#include "unit/temporary_folder.h"
 
 namespace fs = std::filesystem;
 
@@ -81,6 +82,19 @@ TEST(CommandLine, missing_files_are_scene_errors) {
     expect("info /no/such/file.glb", 2, "/no/such/file.glb");
     expect("merge /no/such.film -o /tmp/x.triadfilm", 2, "/no/such.film");
     expect("compare /no/such.exr /no/such.exr", 2, "/no/such.exr");
+}
+
+TEST(CommandLine, what_info_refuses_it_tells_in_its_json) {
+    const TemporaryFolder folder;
+    const std::string scene = (folder / "bad.gltf").string(), json = (folder / "a.json").string();
+    std::ofstream(scene) << "{";
+    expect("info " + scene + " --json -", 2, "\"error\": \"" + scene);
+    expect("info " + scene + " --json " + json, 2, "JSON");
+    EXPECT_NE(bytes_of(json).find("\"exit\": 2"), std::string::npos);
+    // What is there may be a file of the scene.
+    std::ofstream(json) << "older";
+    expect("info " + scene + " --json " + json, 2, "JSON");
+    EXPECT_EQ(bytes_of(json), "older");
 }
 
 TEST(CommandLine, outputs_are_checked_before_rendering) {

@@ -1,0 +1,10 @@
+# Which tests run under sanitizers, as GoogleTest's filters; the rest of `image` is for the label long.
+# Left out of `unit`: what measures or limits memory, which sanitizers take much of; what a program may link; drivers that die on
+# purpose; and long sums, which are arithmetic alone.
+set(unit_sanitized "-MemoryLimit*:ReplayLinks*:DyingDrivers*:PublishedErrors*:TileMetric.agrees*:Repetitions.intervals*:KeptTaps.are_what*:Borders.tell*:PanelChart.has_the_fewest*:StandardIncludes*")
+# Of `image` the host's own work: the command line, films, resuming, merging, captures, faults of devices. Left out are long
+# renders, which are kernels' time, and limits of address space, which sanitizers reserve.
+set(image_sanitized "RenderCommand.*:ResumeCommand.*:ReconstructCommand.*:Frames.*:ImageLightCommand.*")
+set(image_sanitized_rest "-${image_sanitized}:ShellLimits.*")
+set(device_sanitized "*")
+set(fuzz_sanitized "*")
