@@ -3,7 +3,7 @@
 
   tests/bench/scale.py [--program build/bin/triad] [--folder DIR] [--limit N] [--plot FILE.svg] [FAMILY ...]
 
-Makes scenes of six kinds at growing sizes and renders 64x64 pixels, one sample each, of every one. Prints per scene: size of its files,
+Makes scenes of five kinds at growing sizes and renders 64x64 pixels, one sample each, of every one. Prints per scene: size of its files,
 seconds to load and to build, bytes per second, what must be kept (the scene on the host, and what the device reads, which on a CPU is
 memory of the process), and by how much the process grew at most beyond that of a scene of two triangles."""
 import argparse
@@ -166,7 +166,7 @@ def measured(program, path, options):
 
 
 def plot(rows, path):
-    script = ["set terminal svg size 800,480 dynamic background rgb 'white'", f"set output '{path}'", "set logscale xy", "set key left",
+    script = ["set terminal svg size 800,480 dynamic background rgb 'white'", f"set output '{path}'", "set logscale xy", "set key bottom right",
               "set xlabel 'units: triangles, nodes, instances, materials, textures'", "set ylabel 'load and build, seconds'"]
     names = list(dict.fromkeys(row["family"] for row in rows))
     for i, name in enumerate(names):
