@@ -1,6 +1,9 @@
 /* Photons. What the camera sees directly of what they bring is splatted to the film; where paths meet it
  * later, they gather it from a map (photon/map.cl, shading/photon_map.h). Paths themselves leave this light
- * out (path/emission.h). One work-item is one photon. */
+ * out (path/emission.h). One work-item is one photon. Photons read textures as they are: what one brings is
+ * seen by many samples. */
+#undef TRIAD_TEXTURE_LEVELS
+#define TRIAD_TEXTURE_LEVELS 0
 #include "common/language.h"
 
 #include "path/photon.h"
