@@ -25,7 +25,7 @@ table { overflow-wrap: anywhere; border-collapse: collapse; width: 100%; margin:
 th, td { text-align: left; padding: .4rem .6rem; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { color: var(--soft); font-weight: 600; }
 tbody th { color: var(--ink); }
-td.n { white-space: nowrap; } @media (max-width: 66rem) { td.n { white-space: normal; } } thead th { overflow-wrap: normal; }
+td.n { white-space: nowrap; } @media (max-width: 66rem) { td.n { white-space: normal; overflow-wrap: normal; } } thead th { overflow-wrap: normal; }
 tbody th, tbody th + td { min-width: 7.5rem; }
 td small { display: block; color: var(--soft); white-space: nowrap; }
 .good { color: var(--good); } .bad { color: var(--bad); font-weight: 600; }
