@@ -15,7 +15,7 @@ struct Rule {
     bool required = false;                                 ///< when the object that should hold it exists
     double lo = -std::numeric_limits<double>::infinity();  ///< integer, number: the least; numbers: the
                                                            ///< length; arrays: the least length
-    double hi = std::numeric_limits<double>::infinity();  ///< integer, number: the most; arrays: the length
+    double hi = std::numeric_limits<double>::infinity();   ///< integer, number: the most; arrays: the length
 };
 
 /// What must hold before anything else is worth a look.

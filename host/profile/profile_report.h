@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "profile/profile.h"
 #include "device/report.h"
+#include "profile/profile.h"
 
 namespace triad {
 
