@@ -77,14 +77,13 @@ class TexturePacker {
         return d;
     }
 
-    /// Smaller and smaller, down to one texel; none of small images.
     const std::vector<dev::Texture>& levels_of(std::size_t index) {
         auto [it, fresh] = levels_.try_emplace(index);
         if (!fresh) return it->second;
         const Image& image = scene_.images[index];
-        if (!may_have_levels(image)) return it->second;
         Image level;  // of 16 bits, so that rounding does not add up from one to the next
-        for (unsigned side = std::max(image.width, image.height) / 2; side > 0; side /= 2) {
+        for (const uvec2& size : level_sizes(image)) {
+            const unsigned side = std::max(size.x, size.y);
             level =
                 it->second.empty() ? with_bits(reduced(image, side, true), 16) : reduced(level, side, true);
             const Image stored = with_bits(level, image.bits);

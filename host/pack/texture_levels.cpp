@@ -13,29 +13,26 @@ constexpr std::size_t least_texels = 128 * 128;
 
 }  // namespace
 
-bool may_have_levels(const Image& image) { return std::size_t(image.width) * image.height >= least_texels; }
-
 bool may_have_levels(const Material& material) { return material.alpha_mode == AlphaMode::opaque; }
+
+std::vector<uvec2> level_sizes(const Image& image) {
+    std::vector<uvec2> sizes;
+    uvec2 size = {image.width, image.height};
+    if (std::size_t(size.x) * size.y < least_texels) return sizes;
+    while (const unsigned side = std::max(size.x, size.y) / 2)
+        sizes.push_back(size = reduced_size(size.x, size.y, side));
+    return sizes;
+}
 
 std::uint64_t level_bytes(const Scene& scene) {
     std::set<std::size_t> images;
-    for (const Material& m : scene.materials) {
-        if (!may_have_levels(m)) continue;
-        for (const std::optional<TextureUse>& use :
-             {m.base_colour_texture, m.emission_texture, m.specular_colour_texture,
-              m.sheen ? m.sheen->colour_texture : std::nullopt,
-              m.diffuse_transmission ? m.diffuse_transmission->colour_texture : std::nullopt})
-            if (use) images.insert(scene.textures[use->texture].image);
-    }
+    for (const Material& m : scene.materials)
+        if (may_have_levels(m))
+            for (const TextureUse* use : colour_uses_of(m)) images.insert(scene.textures[use->texture].image);
     std::uint64_t bytes = 0;
-    for (const std::size_t i : images) {
-        const Image& image = scene.images[i];
-        uvec2 size = {image.width, image.height};
-        while (may_have_levels(image) && std::max(size.x, size.y) > 1) {
-            size = reduced_size(size.x, size.y, std::max(size.x, size.y) / 2);
-            bytes += std::uint64_t(size.x) * size.y * 4 * (image.bits / 8);
-        }
-    }
+    for (const std::size_t i : images)
+        for (const uvec2& size : level_sizes(scene.images[i]))
+            bytes += std::uint64_t(size.x) * size.y * 4 * (scene.images[i].bits / 8);
     return bytes;
 }
 

@@ -132,17 +132,33 @@ bool is_solid(const Material& m) {
     return m.thickness > 0.0f && (m.transmission > 0.0f || m.diffuse_transmission);
 }
 
-std::vector<const TextureUse*> texture_uses_of(const Material& m) {
+namespace {
+
+/// To which textures are added that may be there or not.
+void add_uses(std::vector<const TextureUse*>& uses, const auto&... all) {
+    ((all ? uses.push_back(&*all) : void()), ...);
+}
+
+}  // namespace
+
+std::vector<const TextureUse*> colour_uses_of(const Material& m) {
     std::vector<const TextureUse*> uses;
-    const auto add = [&uses](const auto&... all) { (uses.push_back(all ? &*all : nullptr), ...); };
-    add(m.base_colour_texture, m.metallic_roughness_texture, m.normal_texture, m.emission_texture,
-        m.specular_texture, m.specular_colour_texture, m.transmission_texture);
-    if (m.clearcoat) add(m.clearcoat->texture, m.clearcoat->roughness_texture, m.clearcoat->normal_texture);
-    if (m.sheen) add(m.sheen->colour_texture, m.sheen->roughness_texture);
-    if (m.anisotropy) add(m.anisotropy->texture);
-    if (m.iridescence) add(m.iridescence->texture, m.iridescence->thickness_texture);
-    if (m.diffuse_transmission) add(m.diffuse_transmission->texture, m.diffuse_transmission->colour_texture);
-    std::erase(uses, nullptr);
+    add_uses(uses, m.base_colour_texture, m.emission_texture, m.specular_colour_texture);
+    if (m.sheen) add_uses(uses, m.sheen->colour_texture);
+    if (m.diffuse_transmission) add_uses(uses, m.diffuse_transmission->colour_texture);
+    return uses;
+}
+
+std::vector<const TextureUse*> texture_uses_of(const Material& m) {
+    std::vector<const TextureUse*> uses = colour_uses_of(m);
+    add_uses(uses, m.metallic_roughness_texture, m.normal_texture, m.specular_texture,
+             m.transmission_texture);
+    if (m.clearcoat)
+        add_uses(uses, m.clearcoat->texture, m.clearcoat->roughness_texture, m.clearcoat->normal_texture);
+    if (m.sheen) add_uses(uses, m.sheen->roughness_texture);
+    if (m.anisotropy) add_uses(uses, m.anisotropy->texture);
+    if (m.iridescence) add_uses(uses, m.iridescence->texture, m.iridescence->thickness_texture);
+    if (m.diffuse_transmission) add_uses(uses, m.diffuse_transmission->texture);
     return uses;
 }
 

@@ -130,6 +130,8 @@ bool is_solid(const Material& material);
 
 /// Every texture that the material uses.
 std::vector<const TextureUse*> texture_uses_of(const Material& material);
+/// Those of them that hold colours.
+std::vector<const TextureUse*> colour_uses_of(const Material& material);
 
 /// Triangles with one material. Optional attributes are empty or as long as positions.
 struct Primitive {

@@ -52,7 +52,6 @@ TRIAD_FUNCTION PhotonState photon_start(const Scene* scene, global const PhotonF
     photon.source = photon_emit(scene, photon_frame, lights, casters, &u);
     const Ray ray = photon.source.ray;
     photon.path = path_state(&sampler, ray, path_colour_white());
-    photon.path.pdf = INFINITY; /* it stands for no area: colours are not averaged */
     photon.length = 0.0f;
     photon.from = VEC3_OF(ray.origin);
     photon.ray_name = coverage_ray(&sampler, 0u);
