@@ -4,19 +4,27 @@
 #include <cstdio>
 #include <mutex>
 #include <set>
+#include <utility>
 
 namespace triad {
 namespace {
 
 std::atomic<int> level{1};
 std::mutex mutex;
+std::function<void()> clear_line;
 
 void print(const char* prefix, const std::string& text) {
     std::lock_guard lock(mutex);
+    if (clear_line) clear_line();
     std::fprintf(stderr, "%s%s\n", prefix, text.c_str());
 }
 
 }  // namespace
+
+void before_each_line(std::function<void()> clear) {
+    std::lock_guard lock(mutex);
+    clear_line = std::move(clear);
+}
 
 void set_log_level(int value) { level = value; }
 int log_level() { return level; }

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
 
 #include "base/log.h"
+#include "base/spans.h"
 #include "base/text.h"
 
 namespace triad {
@@ -92,18 +95,46 @@ std::string json_text(const ProgressState& state) {
            (state.perceived_noise ? format("%.4g", *state.perceived_noise) : "null") + "}";
 }
 
+const char* phase_words(const char* phase) {
+    static constexpr struct {
+        const char *phase, *words;
+    } all[] = {{"load", "loading the scene"}, {"device", "opening the device"},
+               {"build", "building trees"},   {"compile", "compiling kernels"},
+               {"render", "rendering"},       {"write", "writing"}};
+    for (const auto& each : all)
+        if (std::strcmp(each.phase, phase) == 0) return each.words;
+    return phase;
+}
+
+std::string phase_json(const char* phase, double seconds) {
+    return format("{\"phase\": \"%s\", \"seconds\": %.3f}", phase, seconds);
+}
+
+ProgressDisplay::ProgressDisplay(ProgressStyle style) : style_(style) {
+    if (style_ != ProgressStyle::bar) return;
+    before_each_line([this] {
+        const std::lock_guard lock(mutex_);
+        clear_bar();
+    });
+}
+
 ProgressDisplay::~ProgressDisplay() {
-    if (bar_shown_) std::fputs("\r\033[K", stderr);
+    if (clock_.joinable() || style_ == ProgressStyle::json) watch_phases(nullptr);
+    if (style_ == ProgressStyle::bar) before_each_line(nullptr);
+    if (clock_.joinable()) clock_.request_stop(), clock_.join();
+    clear_bar();
 }
 
 void ProgressDisplay::update(const ProgressState& state) {
     if (style_ == ProgressStyle::none) return;
     using namespace std::chrono_literals;
-    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard lock(mutex_);
+    phase_ = nullptr;
+    const auto now = Clock::now();
     const auto pause = style_ == ProgressStyle::bar    ? 250ms
                        : style_ == ProgressStyle::json ? 1000ms
                                                        : 10000ms;
-    if (next_ == std::chrono::steady_clock::time_point{} && style_ == ProgressStyle::lines) {
+    if (next_ == Clock::time_point{} && style_ == ProgressStyle::lines) {
         next_ = now + pause;  // a job of a few seconds needs no line
         return;
     }
@@ -111,9 +142,7 @@ void ProgressDisplay::update(const ProgressState& state) {
     next_ = now + pause;
     switch (style_) {
         case ProgressStyle::bar:
-            std::fprintf(stderr, "\r%s\033[K", bar_text(state, terminal_columns()).c_str());
-            std::fflush(stderr);
-            bar_shown_ = true;
+            draw_bar(bar_text(state, terminal_columns()));
             break;
         case ProgressStyle::lines:
             std::fprintf(stderr, "%s\n", line_text(state).c_str());
@@ -124,6 +153,65 @@ void ProgressDisplay::update(const ProgressState& state) {
         case ProgressStyle::none:
             break;
     }
+}
+
+void ProgressDisplay::show_phases() {
+    if (style_ == ProgressStyle::none) return;
+    watch_phases([this](const char* phase) { begin_phase(phase); });
+    if (style_ != ProgressStyle::json)
+        clock_ = std::jthread([this](const std::stop_token& s) { run_clock(s); });
+}
+
+void ProgressDisplay::begin_phase(const char* phase) {
+    const std::lock_guard lock(mutex_);
+    if (style_ == ProgressStyle::json) {
+        std::fprintf(stderr, "%s\n", phase_json(phase, seconds()).c_str());
+        return;
+    }
+    phase_ = phase, phase_start_ = Clock::now();
+}
+
+void ProgressDisplay::run_clock(const std::stop_token& stop) {
+    using namespace std::chrono_literals;
+    const auto pause = style_ == ProgressStyle::bar ? 250ms : 10000ms;
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, stop, pause, [&] { return stop.stop_requested(); }) &&
+           !stop.stop_requested())
+        if (phase_ && Clock::now() - phase_start_ >= pause) show_phase();
+}
+
+void ProgressDisplay::show_phase() {
+    const double so_far = std::chrono::duration<double>(Clock::now() - phase_start_).count();
+    const std::string text = std::string(phase_words(phase_)) + ", " + clock_time(std::floor(so_far));
+    if (style_ == ProgressStyle::bar) return draw_bar(text);
+    std::fprintf(stderr, "%s so far\n", text.c_str());
+}
+
+void ProgressDisplay::end(int exit, const std::string& error) {
+    const std::lock_guard lock(mutex_);
+    phase_ = nullptr;
+    clear_bar();
+    if (style_ != ProgressStyle::json) return;
+    std::string text = format("{\"phase\": \"end\", \"seconds\": %.3f, \"exit\": %d", seconds(), exit);
+    if (!error.empty())
+        text += ", \"error\": " +
+                nlohmann::json(error).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::fprintf(stderr, "%s}\n", text.c_str());
+}
+
+void ProgressDisplay::draw_bar(const std::string& text) {
+    std::fprintf(stderr, "\r%s\033[K", text.c_str());
+    std::fflush(stderr);
+    bar_shown_ = true;
+}
+
+void ProgressDisplay::clear_bar() {
+    if (bar_shown_) std::fputs("\r\033[K", stderr);
+    bar_shown_ = false;
+}
+
+double ProgressDisplay::seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
 }
 
 }  // namespace triad

@@ -2,8 +2,11 @@
 /// How far a long job is, on standard error: a bar on a terminal, one line each 10 s elsewhere, JSON lines on
 /// request.
 #include <chrono>
+#include <condition_variable>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 
 namespace triad {
 
@@ -39,9 +42,14 @@ std::string bar_text(const ProgressState& state, unsigned columns);
 std::string line_text(const ProgressState& state);
 std::string json_text(const ProgressState& state);
 
+/// "building trees" of "build", and so on; a phase that is not known is its own words.
+const char* phase_words(const char* phase);
+/// The line of JSON that says that a phase begins, without a line end.
+std::string phase_json(const char* phase, double seconds);
+
 class ProgressDisplay {
   public:
-    explicit ProgressDisplay(ProgressStyle style) : style_(style) {}
+    explicit ProgressDisplay(ProgressStyle style);
     ~ProgressDisplay();  ///< clears the bar
     ProgressDisplay(const ProgressDisplay&) = delete;
     ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -49,10 +57,32 @@ class ProgressDisplay {
     /// Cheap to call often: shows at most four bars a second, one JSON line a second, one line each 10 s.
     void update(const ProgressState& state);
 
+    /// From now on phases are shown: on a terminal with a running clock, as a line after each 10 s of one, in
+    /// JSON as each begins.
+    void show_phases();
+
+    /// The last JSON line: the exit code, and the sentence where it failed. The bar is cleared.
+    void end(int exit, const std::string& error = "");
+
   private:
-    ProgressStyle style_;
+    using Clock = std::chrono::steady_clock;
+
+    const ProgressStyle style_;
+    const Clock::time_point start_ = Clock::now();
+    std::mutex mutex_;
     bool bar_shown_ = false;
-    std::chrono::steady_clock::time_point next_{};
+    Clock::time_point next_{};
+    const char* phase_ = nullptr;  ///< that is shown, until an update says more
+    Clock::time_point phase_start_{};
+    std::condition_variable_any wake_;
+    std::jthread clock_;  ///< last: it uses the others
+
+    void begin_phase(const char* phase);
+    void run_clock(const std::stop_token& stop);
+    void show_phase();
+    void draw_bar(const std::string& text);
+    void clear_bar();
+    double seconds() const;
 };
 
 }  // namespace triad

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <utility>
 
 namespace triad {
 namespace {
@@ -10,6 +11,8 @@ namespace {
 std::atomic<bool> keeping = false;
 std::mutex spans_mutex;
 std::vector<HostSpan> kept;
+std::mutex watcher_mutex;
+std::function<void(const char*)> watcher;
 
 std::int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -32,7 +35,16 @@ std::vector<HostSpan> kept_spans() {
     return kept;
 }
 
-Span::Span(const char* name) : name_(name), start_(keeping ? now() : 0) {}
+void watch_phases(std::function<void(const char*)> told) {
+    const std::lock_guard lock(watcher_mutex);
+    watcher = std::move(told);
+}
+
+Span::Span(const char* name, const char* phase) : name_(name), start_(keeping ? now() : 0) {
+    if (!phase) return;
+    const std::lock_guard lock(watcher_mutex);
+    if (watcher) watcher(phase);
+}
 
 Span::~Span() {
     if (start_ == 0) return;

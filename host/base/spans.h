@@ -1,6 +1,7 @@
 #pragma once
 /// What the host did and when, for who looks at a run. Nothing is kept unless it is asked for.
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,14 @@ void keep_spans();
 /// Those that have ended, in the order in which they did.
 std::vector<HostSpan> kept_spans();
 
-/// From here to the end of the block, under a name that must outlive it.
+/// Whoever shows how far the job is, is told of every phase of it when it begins; empty: nobody is.
+void watch_phases(std::function<void(const char* phase)> watcher);
+
+/// From here to the end of the block, under a name that must outlive it. `phase`: one of those that
+/// `triad render` goes through (base/progress.h); none for what happens within one.
 class Span {
   public:
-    explicit Span(const char* name);
+    explicit Span(const char* name, const char* phase = nullptr);
     ~Span();
     Span(const Span&) = delete;
     Span& operator=(const Span&) = delete;

@@ -72,7 +72,7 @@ ProgressState shown(const Progress& p, const RenderGoal& goal) {
 }
 
 /// `to_go_on`: the command for it, said when the render stops before its goal; empty: there is none.
-Exit run(const RenderRequest& request, const std::string& to_go_on) {
+Exit run(const RenderRequest& request, const std::string& to_go_on, ProgressDisplay& display) {
     RenderSession session(request);
     describe(session);
     if (session.request().pixel) {
@@ -85,18 +85,15 @@ Exit run(const RenderRequest& request, const std::string& to_go_on) {
     const RenderGoal& goal = session.goal();
     RenderOutcome outcome;
     Progress progress;
-    {
-        ProgressDisplay display(progress_style(request.progress));
-        try {
-            outcome = session.render([&](const Progress& p) {
-                progress = p;
-                display.update(shown(p, goal));
-                return !guard.interrupted();
-            });
-        } catch (const Error& error) {
-            if (!is_film(session.request().film_path)) throw;
-            throw Error(error.exit(), std::string(error.what()) + "\nTo go on: " + to_go_on);
-        }
+    try {
+        outcome = session.render([&](const Progress& p) {
+            progress = p;
+            display.update(shown(p, goal));
+            return !guard.interrupted();
+        });
+    } catch (const Error& error) {
+        if (!is_film(session.request().film_path)) throw;
+        throw Error(error.exit(), std::string(error.what()) + "\nTo go on: " + to_go_on);
     }
     const Film& film = outcome.film;
     detail("The film has " + bytes_text(film_bytes(film)) + ", " + std::to_string(film.bins()) +
@@ -119,6 +116,20 @@ Exit run(const RenderRequest& request, const std::string& to_go_on) {
     inform(to_go_on.empty() ? "No film was kept, so that the render cannot go on; with --film FILE it could."
                             : "To go on: " + to_go_on);
     return Exit::interrupted;
+}
+
+/// With its phases shown, the last of which says how it ended.
+Exit run(const RenderRequest& request, const std::string& to_go_on) {
+    ProgressDisplay display(progress_style(request.progress));
+    display.show_phases();
+    try {
+        const Exit exit = run(request, to_go_on, display);
+        display.end(int(exit));
+        return exit;
+    } catch (const Error& error) {
+        display.end(int(error.exit()), error.what());
+        throw;
+    }
 }
 
 Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, const std::string& to_go_on) {

@@ -86,7 +86,7 @@ void RenderLoop::go_on_from(const FilmProgress& progress) {
 }
 
 RenderResult RenderLoop::run() {
-    const Span span("render");
+    const Span span("render", "render");
     const double processor_start = processor_seconds();
     try {
         if (photons().is_classic()) make_classic_map();

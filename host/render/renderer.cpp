@@ -81,7 +81,7 @@ bool try_device(std::size_t devices, const std::function<void()>& work) {
 }
 
 DeviceScenes scene_on(std::span<Device* const> devices, const Scene& scene, const RenderSettings& settings) {
-    const Span span("build trees and upload");
+    const Span span("build trees and upload", "build");
     BvhFormats formats;
     for (const Device* device : devices) formats.insert(format_of(*device));
     const auto packed = pack_for(scene, settings, {}, formats);
@@ -100,7 +100,7 @@ Renderer::State::State(const DeviceScenes& scenes, const RenderSettings& s, cons
       features(f ? united(*f, features_of(*packed, settings)) : features_of(*packed, settings)),
       store(*packed, settings) {
     assert(holds_for(*packed, s));
-    const Span span("compile");
+    const Span span("compile", "compile");
     const auto start = RenderClock::now();
     for (const auto& scene : scenes) {
         assert(scene->shared() == packed);

@@ -134,7 +134,7 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 namespace {
 
 Device opened(const RenderRequest& o, Device::Settings settings) {
-    const Span span("open the device");
+    const Span span("open the device", "device");
     settings.profile = o.profile;
     Device device = Device::open(settings);
     Tuning wishes;

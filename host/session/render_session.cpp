@@ -75,7 +75,7 @@ std::string joined(const std::vector<Device>& devices, const Say& say) {
 }
 
 Scene timed_scene(const RenderRequest& request, double& seconds, GltfReport& report) {
-    const Span span("load the scene");
+    const Span span("load the scene", "load");
     const auto start = Clock::now();
     Scene scene = load_scene(request, &report);
     seconds = since(start);
@@ -236,7 +236,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
 }
 
 void RenderSession::write(const RenderOutcome& outcome) {
-    const Span span("write");
+    const Span span("write", "write");
     const auto write_film = [&] {
         if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
     };

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "io/io.h"
@@ -101,6 +102,34 @@ TEST(RenderCommand, what_is_too_large_for_the_memory_is_said_before_it_is_taken)
     EXPECT_NE(film.output.find("The film of 9000000 pixels needs"), std::string::npos) << film.output;
     EXPECT_EQ(run_triad("render --max-memory 2G --size 30x30 --spp 1 -q -o /tmp/triad-none.png").exit, 0);
     fs::remove("/tmp/triad-none.png");
+}
+
+TEST(RenderCommand, json_tells_the_phases_and_how_it_ended) {
+    const TemporaryFolder folder;
+    const Outcome done =
+        run_triad("render --size 32x18 --spp 2 --progress json -o " + (folder / "a.png").string());
+    ASSERT_EQ(done.exit, 0) << done.output;
+    std::string phases;
+    nlohmann::json last;
+    std::istringstream lines(done.output);
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("{")) continue;
+        last = nlohmann::json::parse(line);
+        if (last.contains("phase")) phases += last["phase"].get<std::string>() + " ";
+    }
+    EXPECT_EQ(phases, "load device build compile render write end ");
+    EXPECT_EQ(last.at("exit"), 0);
+    const Outcome failed =
+        run_triad("render --progress json '" + (folder / "no \"scene\".glb").string() + "'");
+    ASSERT_EQ(failed.exit, 2) << failed.output;
+    const std::size_t end = failed.output.find("{\"phase\": \"end\"");
+    ASSERT_NE(end, std::string::npos) << failed.output;
+    std::istringstream rest(failed.output.substr(end));
+    std::string line;
+    std::getline(rest, line);
+    const auto event = nlohmann::json::parse(line);
+    EXPECT_EQ(event.at("exit"), 2);
+    EXPECT_NE(event.at("error").get<std::string>().find("no \"scene\".glb"), std::string::npos);
 }
 
 TEST(RenderCommand, an_interrupt_finishes_the_pass_and_saves) {

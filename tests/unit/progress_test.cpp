@@ -57,3 +57,10 @@ TEST(Progress, a_job_that_is_no_render_says_what_it_does) {
     EXPECT_EQ(json_text(state),
               "{\"progress\": 0.25, \"seconds\": 10.000, \"seconds_left\": 30.000, \"doing\": \"peaks\"}");
 }
+
+TEST(Progress, phases_have_words) {
+    EXPECT_STREQ(phase_words("load"), "loading the scene");
+    EXPECT_STREQ(phase_words("build"), "building trees");
+    EXPECT_STREQ(phase_words("something else"), "something else");
+    EXPECT_EQ(phase_json("load", 0.25), "{\"phase\": \"load\", \"seconds\": 0.250}");
+}
