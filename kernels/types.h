@@ -8,6 +8,7 @@
 #ifndef TRIAD_TYPES_H
 #define TRIAD_TYPES_H
 
+#include "types/denoise.h"
 #include "types/display.h"
 #include "types/geometry.h"
 #include "types/lights.h"

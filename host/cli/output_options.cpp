@@ -40,6 +40,12 @@ void declare_style(CLI::App& command, OutputStyle& style) {
         ->check(CLI::IsMember({8, 16}))
         ->type_name("N")
         ->group(output_group);
+    add_parsed(
+        command, "--denoise", "NAME",
+        "off (the default), own (on the device, guided by what the camera sees first) or oidn (Intel's Open "
+        "Image Denoise, where it is installed)",
+        [&style](const std::string& v) { style.denoise = denoiser_named(v); })
+        ->group(output_group);
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
 }
 

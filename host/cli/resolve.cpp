@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/check_outputs.h"
+#include "base/log.h"
 #include "cli/command_line.h"
 #include "cli/option_kinds.h"
 #include "cli/output_options.h"
@@ -41,6 +42,12 @@ void resolve_film(ResolveOptions& o) {
     Device device = Device::open({.selector = o.device});
     Metadata metadata = metadata_of(film);
     describe(method, metadata);
+    describe(o.style.denoise, metadata);
+    if (o.style.denoise != Denoiser::off && !film.has_guides)
+        inform(
+            "The film holds nothing of what the camera sees first: colours alone guide the denoiser (triad "
+            "render "
+            "--denoise keeps it).");
     write_outputs(o.outputs, device, film, o.style, {}, metadata);
 }
 
@@ -60,6 +67,9 @@ BinImage image_of(const Picture& picture, const std::string& path) {
 }
 
 void resolve_image(ResolveOptions& o) {
+    if (o.style.denoise != Denoiser::off)
+        throw Error(Exit::usage,
+                    "--denoise is for films, which know their noise; " + o.source + " is a picture.");
     const Picture picture = read_picture(o.source);
     refuse_for_panel(o.source, picture.metadata, "filter");
     if (picture.encoded && o.toned)

@@ -40,9 +40,14 @@ std::size_t pixels_of(const Film& film, std::size_t i) {
     return std::min<std::size_t>((i + 1) * FILM_TILE, film.height) * film.width - i * FILM_TILE * film.width;
 }
 
+/// In a file.
+std::uint64_t pixel_bytes(const Film& film) {
+    return film.bins() * 4 * 8 + 3 * 8 + 4 + (film.has_guides ? DENOISE_GUIDES * 4 : 0);
+}
+
 /// Of block i from the first one on.
 std::uint64_t offset_of(const Film& film, std::size_t i) {
-    const std::uint64_t row = std::uint64_t(film.width) * (film.bins() * 4 * 8 + 3 * 8 + 4);
+    const std::uint64_t row = film.width * pixel_bytes(film);
     return std::min<std::uint64_t>(i * FILM_TILE, film.height) * row + i * checksum_size;
 }
 
@@ -52,9 +57,12 @@ std::size_t block_count(const Film& film) { return (film.height + FILM_TILE - 1)
 
 FilmBlock rows_of(Film& film, std::size_t i) {
     const std::size_t first = i * FILM_TILE * film.width, pixels = pixels_of(film, i), sums = film.bins() * 4;
-    return {{&film.sums[first * sums], pixels * sums * sizeof(std::int64_t)},
-            {&film.half_sums[first * 3], pixels * 3 * sizeof(std::int64_t)},
-            {&film.samples[first], pixels * sizeof(std::uint32_t)}};
+    FilmBlock block = {{&film.sums[first * sums], pixels * sums * sizeof(std::int64_t)},
+                       {&film.half_sums[first * 3], pixels * 3 * sizeof(std::int64_t)},
+                       {&film.samples[first], pixels * sizeof(std::uint32_t)}};
+    if (film.has_guides)
+        block.push_back({&film.guides[first * DENOISE_GUIDES], pixels * DENOISE_GUIDES * sizeof(float)});
+    return block;
 }
 
 FilmBlock block_of(FilmProgress& progress) {
@@ -138,7 +146,7 @@ SalvagedFilm FilmReader::read() {
     const std::uint64_t size = file().size(), blocks = block_count(film_);
     const std::uint64_t pixels = film_.pixels(), sums = pixels * film_.bins() * 4;
     // At most 2^40 pixels of 2^12 bins: 64 bits hold every product.
-    const std::uint64_t needed = sums * 8 + pixels * (3 * 8 + 4), have = size - header_end_;
+    const std::uint64_t needed = pixels * pixel_bytes(film_), have = size - header_end_;
     if (have < needed / least_share)
         refuse("it has " + std::to_string(have) + " bytes of sums, and its size asks for " +
                std::to_string(needed));
@@ -147,6 +155,7 @@ SalvagedFilm FilmReader::read() {
     SalvagedFilm found;
     Film& film = found.film = film_;
     film.sums.resize(sums), film.half_sums.resize(pixels * 3), film.samples.resize(pixels);
+    if (film.has_guides) film.guides.resize(pixels * DENOISE_GUIDES);
     for (std::size_t i = 0; i < blocks; ++i) {
         const FilmBlock rows = rows_of(film, i);
         if (read(i, rows)) continue;

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/whole_number.h"
+#include "kernels/types.h"
 
 namespace triad {
 namespace {
@@ -71,6 +72,11 @@ Film film_of(const json& header, ProgressSizes& sizes, const Refuse& refuse) {
     if (header.contains("shares"))
         for (const json& number : header.at("shares"))
             film.shares.push_back(whole_number<std::uint32_t>(number));
+    if (header.contains("guides")) {
+        if (whole_number<unsigned>(header.at("guides")) != DENOISE_GUIDES)
+            refuse("its guides are not those of this Triad");
+        film.has_guides = true;
+    }
     if (header.contains("progress")) film.progress = progress_of(header.at("progress"), sizes, refuse);
     return film;
 }
@@ -91,6 +97,7 @@ std::string film_header(const Film& film) {
                    {"settings_text", film.settings_text},
                    {"devices", film.devices}};
     if (!film.shares.empty()) header["shares"] = film.shares;
+    if (film.has_guides) header["guides"] = DENOISE_GUIDES;
     if (film.progress) header["progress"] = to_json(*film.progress);
     // Names of devices come from drivers: what is no UTF-8 is replaced.
     return header.dump(-1, ' ', false, json::error_handler_t::replace);

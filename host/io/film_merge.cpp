@@ -20,6 +20,7 @@ Film rows_like(const Film& film, unsigned begin, unsigned end) {
     rows.sums.assign(rows.pixels() * rows.bins() * 4, 0);
     rows.half_sums.assign(rows.pixels() * 3, 0);
     rows.samples.assign(rows.pixels(), 0);
+    if (film.has_guides) rows.guides.assign(rows.pixels() * DENOISE_GUIDES, 0);
     return rows;
 }
 
@@ -85,8 +86,9 @@ MergedFilm merge_films(const std::vector<std::filesystem::path>& parts, const st
         for (std::size_t i = 0; i < block_count(merged.film); ++i) {
             const unsigned begin = unsigned(i * FILM_TILE),
                            end = std::min(begin + FILM_TILE, merged.film.height);
-            Film sum = rows_like(merged.film, begin, end), rows = sum;
+            Film sum = rows_like(merged.film, begin, end);
             for (std::size_t part = 0; part < readers.size(); ++part) {
+                Film rows = rows_like(headers[part], begin, end);
                 if (!readers[part].read(i, rows_of(rows, 0)))
                     readers[part].refuse("rows " + std::to_string(begin) + " to " + std::to_string(end - 1) +
                                          " of its crop are damaged or missing. triad render --resume " +
@@ -94,6 +96,7 @@ MergedFilm merge_films(const std::vector<std::filesystem::path>& parts, const st
                 const std::uint64_t count = headers[part].sample_count();
                 for (const std::uint32_t n : rows.samples)
                     if (n != count) refuse_uneven(names[part]);
+                if (part == first_part(headers)) sum.guides = rows.guides;
                 add_sums(sum.sums, rows.sums);
                 add_sums(sum.half_sums, rows.half_sums);
                 for (std::size_t p = 0; p < sum.samples.size(); ++p) sum.samples[p] += rows.samples[p];

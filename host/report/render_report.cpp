@@ -72,6 +72,7 @@ Json render_row(RenderSession& session, const RenderOutcome& outcome) {
         {"film_bytes", film_bytes(film)},
         {"bins", {film.bins_x, film.bins_y}},
         {"reconstruct", request.style.reconstruction.method},
+        {"denoise", name_of(request.style.denoise)},
         {"left_out", left_out(renderer.features())},
         {"not_finite", n[COUNTER_NOT_FINITE]},
         {"saturated", n[COUNTER_SATURATED]},
@@ -90,11 +91,15 @@ std::string render_sentence(RenderSession& session, const RenderOutcome& outcome
         numbers.least == numbers.most ? "" : format(" (%u to %u)", numbers.least, numbers.most);
     const std::string perceived =
         result.perceived_noise ? format(", perceived noise %.2g", *result.perceived_noise) : "";
-    return format("%s: %ux%u, %s samples per pixel%s in %.1f s, %.2f Mrays/s, relMSE %s%s", names.c_str(),
+    const std::string denoised =
+        request.style.denoise == Denoiser::off
+            ? ""
+            : std::string(" before ") + name_of(request.style.denoise) + " denoised it";
+    return format("%s: %ux%u, %s samples per pixel%s in %.1f s, %.2f Mrays/s, relMSE %s%s%s", names.c_str(),
                   outcome.film.width, outcome.film.height, spp_text(numbers.mean).c_str(), spread.c_str(),
                   result.seconds, mega_rays(outcome),
                   outcome.relmse < 0 ? "not known" : relmse_text(outcome.relmse, result.trend).c_str(),
-                  perceived.c_str());
+                  perceived.c_str(), denoised.c_str());
 }
 
 }  // namespace triad

@@ -119,6 +119,15 @@ void refuse_uneven(const std::string& name) {
             "Render parts of a picture with --samples, or with --spp and --adaptive off.");
 }
 
+std::size_t first_part(std::span<const Film> parts) {
+    const auto begin = [](const Film& part) {
+        return part.ranges.empty() ? std::numeric_limits<std::uint64_t>::max() : part.ranges[0].begin;
+    };
+    return std::size_t(std::min_element(parts.begin(), parts.end(),
+                                        [&](const Film& a, const Film& b) { return begin(a) < begin(b); }) -
+                       parts.begin());
+}
+
 Film merged_header(std::span<const Film> parts, std::span<const std::string> names) {
     if (parts.empty()) throw Error(Exit::usage, "There is nothing to merge: name at least one film.");
     Film whole;
@@ -129,6 +138,7 @@ Film merged_header(std::span<const Film> parts, std::span<const std::string> nam
     whole.scene = parts[0].scene, whole.settings = parts[0].settings;
     whole.settings_text = parts[0].settings_text;
     if (parts.size() == 1) whole.progress = parts[0].progress;  // what one of several had to do is nobody's
+    whole.has_guides = parts[first_part(parts)].has_guides;
     std::vector<PartRange> ranges;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         require_same_picture(whole, parts[i],
@@ -154,6 +164,7 @@ Film merged_header(std::span<const Film> parts, std::span<const std::string> nam
 Film merge(std::span<const Film> parts) {
     Film whole = merged_header(parts);
     whole.sums = parts[0].sums, whole.half_sums = parts[0].half_sums, whole.samples = parts[0].samples;
+    whole.guides = parts[first_part(parts)].guides;
     for (const Film& part : parts)
         if (parts.size() > 1 && !part.is_even()) refuse_uneven("one");
     for (const Film& part : parts.subspan(1)) {

@@ -46,6 +46,9 @@ struct Film {
     std::vector<std::int64_t> sums;       ///< [pixel][bin row-major][R, G, B, alpha]
     std::vector<std::int64_t> half_sums;  ///< [pixel][R, G, B]: samples of the first half only
     std::vector<std::uint32_t> samples;   ///< per pixel, all bins together
+    /// [pixel][DENOISE_GUIDES]: what the camera sees first, for denoisers, if has_guides.
+    std::vector<float> guides;
+    bool has_guides = false;
     /// Sorted, disjoint, coalesced: what every pixel holds. Where sampling was adaptive, pixels go on from
     /// the end of the last range without gaps, as far as `samples` says.
     std::vector<SampleRange> ranges;
@@ -76,6 +79,8 @@ void require_same_picture(const Film& a, const Film& b,
 
 /// merge() without arrays, of films without arrays. `names`: of the parts, for sentences.
 Film merged_header(std::span<const Film> parts, std::span<const std::string> names = {});
+/// Which of the parts has the earliest samples: guides are its.
+std::size_t first_part(std::span<const Film> parts);
 /// Throws the Error(scene) of a part whose pixels hold different numbers of samples.
 [[noreturn]] void refuse_uneven(const std::string& name);
 /// Modulo 2^64: the quantum leaves room for every sum that fits, and order must not matter for those that do

@@ -65,6 +65,13 @@ void describe(const Reconstruction& method, Metadata& metadata) {
     metadata["triad:ppd"] = number(method.panel->ppd);
 }
 
+void describe(Denoiser denoiser, Metadata& metadata) {
+    if (denoiser == Denoiser::off) return;
+    metadata["triad:denoise"] = name_of(denoiser);
+    for (const char* of_samples : {"triad:relmse", "triad:trend", "triad:perceived_noise"})
+        metadata.erase(of_samples);
+}
+
 void refuse_for_panel(const std::string& path, const Metadata& metadata, const std::string& purpose) {
     const auto panel = metadata.find("triad:panel");
     if (panel == metadata.end()) return;
@@ -76,7 +83,7 @@ void refuse_for_panel(const std::string& path, const Metadata& metadata, const s
 
 std::uint64_t film_bytes(const Film& film) {
     return film.sums.size() * sizeof film.sums[0] + film.half_sums.size() * sizeof film.half_sums[0] +
-           film.samples.size() * sizeof film.samples[0];
+           film.samples.size() * sizeof film.samples[0] + film.guides.size() * sizeof(float);
 }
 
 bool has_filtered_rays(const Film& film) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "display/denoise.h"
 #include "display/reconstruction.h"
 #include "io/io.h"
 #include "scene/film.h"
@@ -15,6 +16,9 @@ Metadata metadata_of(const Film& film);
 /// Adds how the picture was reconstructed: triad:reconstruct, triad:filter, and triad:panel and triad:ppd
 /// where it is for a panel.
 void describe(const Reconstruction& method, Metadata& metadata);
+
+/// Says that the picture was denoised, and takes back the errors of its samples, which are not its own.
+void describe(Denoiser denoiser, Metadata& metadata);
 
 /// Throws Error(usage) where a picture is for a panel: its values are the drives of that panel's emitters,
 /// and `purpose` ("compare", "denoise" ...) would take them for colours of pixels.

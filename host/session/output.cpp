@@ -165,25 +165,12 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
 
 }  // namespace
 
-void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
-                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
-    Source source;
-    source.window.width = film.width, source.window.height = film.height;
-    source.window.x = film.x, source.window.y = film.y;
-    source.window.full_width = film.full_width, source.window.full_height = film.full_height;
-    source.alpha = has_alpha(film) && !style.background && !style.reconstruction.panel;
-    source.linear = [&] { return linear_of(device, film, style); };
-    source.display = [&] { return display_of(device, film, style); };
-    source.linear_is_display = style.reconstruction.display_linear();
-    source.layers = std::move(layers);
-    write_all(paths, std::move(source), style, metadata);
-}
+namespace {
 
-void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
-                   const OutputStyle& style, const Metadata& metadata) {
+/// `image` must outlive it.
+Source source_of(Device& device, const BinImage& image, bool alpha, const OutputStyle& style) {
     const bool shown = image.encoded || style.reconstruction.display_linear();
-    const bool keep_alpha = alpha && !style.background && !style.reconstruction.panel;
-    const auto resolve = [&](bool linear) {
+    const auto resolve = [&device, &image, alpha, style, shown](bool linear) {
         DisplaySettings settings = display_settings(style, alpha);
         if (linear && !shown) {
             settings.order = ToneOrder::never;
@@ -196,11 +183,38 @@ void write_outputs(const std::vector<std::string>& paths, Device& device, const 
     Source source;
     source.window.width = source.window.full_width = image.width();
     source.window.height = source.window.full_height = image.height();
-    source.alpha = keep_alpha;
-    source.linear = [&] { return resolve(true); };
-    source.display = [&] { return resolve(false); };
+    source.alpha = alpha && !style.background && !style.reconstruction.panel;
+    source.linear = [resolve] { return resolve(true); };
+    source.display = [resolve] { return resolve(false); };
     source.linear_is_display = shown;
+    return source;
+}
+
+}  // namespace
+
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+    Source source;
+    BinImage image;
+    if (style.denoise != Denoiser::off) {
+        image = denoised(device, film, style.denoise);
+        source = source_of(device, image, has_alpha(film), style);
+    } else {
+        source.alpha = has_alpha(film) && !style.background && !style.reconstruction.panel;
+        source.linear = [&] { return linear_of(device, film, style); };
+        source.display = [&] { return display_of(device, film, style); };
+        source.linear_is_display = style.reconstruction.display_linear();
+    }
+    source.window.width = film.width, source.window.height = film.height;
+    source.window.x = film.x, source.window.y = film.y;
+    source.window.full_width = film.full_width, source.window.full_height = film.full_height;
+    source.layers = std::move(layers);
     write_all(paths, std::move(source), style, metadata);
+}
+
+void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
+                   const OutputStyle& style, const Metadata& metadata) {
+    write_all(paths, source_of(device, image, alpha, style), style, metadata);
 }
 
 }  // namespace triad

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "device/device.h"
+#include "display/denoise.h"
 #include "display/reconstruction.h"
 #include "io/io.h"
 #include "scene/film.h"
@@ -19,6 +20,7 @@ struct OutputStyle {
     Reconstruction reconstruction;   ///< EXR and HDR hold what a display shows where it says so
     unsigned bits = 8;               ///< of PNG
     bool half = false;               ///< of EXR
+    Denoiser denoise = Denoiser::off;
 };
 
 bool is_exr(const std::string& path);

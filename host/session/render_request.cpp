@@ -27,6 +27,27 @@ std::vector<std::string> RenderRequest::inputs_named() const {
     return {scene_path, env_path, reconstruct.panel, kernels_path, goes_on ? "" : resume_path};
 }
 
+namespace {
+
+/// What can be said of --denoise before anything is rendered; the film is asked again.
+void check_denoise(const RenderRequest& o) {
+    if (o.style.denoise == Denoiser::off) return;
+    const std::string name = std::string("--denoise ") + name_of(o.style.denoise);
+    if (o.pixel || o.profile) throw Error(Exit::usage, name + " is for pictures, and none is made here.");
+    for (const char* of_samples : {"variance", "error"})
+        if (std::find(o.aovs.begin(), o.aovs.end(), of_samples) != o.aovs.end())
+            throw Error(Exit::usage,
+                        "--aov " + std::string(of_samples) +
+                            " tells of the samples, not of a denoised picture: leave it out, or " + name +
+                            ".");
+    if ((o.spp && *o.spp < 2) || (o.samples && o.samples->end - o.samples->begin < 2))
+        throw Error(Exit::usage, name +
+                                     " tells noise by two halves of the samples: every pixel needs two at "
+                                     "least (--spp).");
+}
+
+}  // namespace
+
 void complete(RenderRequest& o) {
     if (o.frames && (o.pixel || o.pose_time != 0))
         throw Error(
@@ -68,6 +89,7 @@ void complete(RenderRequest& o) {
         std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& path) { return is_exr(path); });
     if (!o.aovs.empty() && !exr)
         throw Error(Exit::usage, "--aov needs an .exr output to put the layers in; add -o FILE.exr.");
+    check_denoise(o);
     if (o.share && (!o.spp || o.error || o.time || o.adaptive.value_or(false)))
         throw Error(
             Exit::usage,
@@ -80,6 +102,7 @@ void complete(RenderRequest& o) {
     o.style.reconstruction = o.reconstruct.make();
     check_format_for(o.style.reconstruction, o.outputs);
     const std::uint64_t bins = o.style.reconstruction.bins_x * o.style.reconstruction.bins_y;
+    if (bins > 1 && o.style.denoise != Denoiser::off) refuse_to_denoise_bins();
     if (o.share) {
         const auto [i, k] = *o.share;
         const std::uint64_t turns = whole_bins(*o.spp, unsigned(bins)) / bins;

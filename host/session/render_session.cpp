@@ -82,6 +82,21 @@ Scene timed_scene(const RenderRequest& request, double& seconds, GltfReport& rep
     return scene;
 }
 
+/// Edges and the blur of the lens have noise; the planes have no other.
+constexpr unsigned feature_samples = 16;
+
+/// What denoisers are guided by.
+void add_guides(Renderer& renderer, Film& film) {
+    const FeaturePlanes planes = renderer.feature_planes(feature_samples);
+    film.has_guides = true;
+    film.guides.clear();
+    for (std::size_t p = 0; p < film.pixels(); ++p) {
+        film.guides.insert(film.guides.end(), &planes.albedo[3 * p], &planes.albedo[3 * p] + 3);
+        film.guides.insert(film.guides.end(), &planes.normal[3 * p], &planes.normal[3 * p] + 3);
+        film.guides.push_back(planes.depth[p]);
+    }
+}
+
 /// The planes of --aov, as EXR channels.
 std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const Film& film) {
     std::vector<Channel> layers;
@@ -98,8 +113,7 @@ std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const
         }
     };
     if (asked("albedo") || asked("normal") || asked("position") || asked("depth")) {
-        constexpr unsigned samples = 16;  // edges and lens blur; the planes have no other noise
-        const FeaturePlanes planes = renderer.feature_planes(samples);
+        const FeaturePlanes planes = renderer.feature_planes(feature_samples);
         if (asked("albedo")) add("albedo", "RGB", planes.albedo);
         if (asked("normal")) add("normal", "XYZ", planes.normal);
         if (asked("position")) add("position", "XYZ", planes.position);
@@ -196,6 +210,7 @@ RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& 
     RenderOutcome outcome;
     outcome.result = missing_ ? fill_holes(report) : renderer_->render_until(goal_, report);
     outcome.film = renderer_->film();
+    if (request_.style.denoise != Denoiser::off) add_guides(*renderer_, outcome.film);
     outcome.numbers = outcome.film.sample_numbers();
     outcome.relmse = estimated_relmse(outcome.film);
     return outcome;
@@ -232,6 +247,7 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     describe(request_.style.reconstruction, metadata);
     if (result.perceived_noise) metadata["triad:perceived_noise"] = format("%.4g", *result.perceived_noise);
     if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
+    describe(request_.style.denoise, metadata);
     return metadata;
 }
 

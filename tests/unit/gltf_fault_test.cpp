@@ -145,7 +145,7 @@ TEST(GltfFault, many_instances_are_no_bomb_but_a_list_that_many_nodes_share_is) 
         {"mesh", 0},
         {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", places}}}}}}}};
     listed.document["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
-    listed.document["nodes"] = {node};
+    listed.document["nodes"] = nlohmann::json::array({node});
     EXPECT_EQ(listed.load().instances.size(), n);
     listed.document["nodes"] = nlohmann::json(1000, node);
     listed.document["scenes"][0]["nodes"] = nlohmann::json(roots.begin(), roots.begin() + 1000);

@@ -15,7 +15,7 @@ Material only_material(GltfBuilder& b) {
 
 GltfBuilder& with_material(GltfBuilder& b, const nlohmann::json& material) {
     b.triangle().primitive()["material"] = 0;
-    b.document["materials"] = {material};
+    b.document["materials"] = nlohmann::json::array({material});
     return b;
 }
 
@@ -100,7 +100,7 @@ TEST(GltfMaterial, samplers_give_wrap_and_filter) {
         GltfBuilder b;
         with_material(b, {{"normalTexture", {{"index", 0}, {"scale", 2}}}}).texture();
         b.document["textures"][0]["sampler"] = 0;
-        b.document["samplers"] = {c.sampler};
+        b.document["samplers"] = nlohmann::json::array({c.sampler});
         const Scene scene = b.load();
         const Texture& t = scene.textures.at(0);
         EXPECT_EQ(t.linear, c.linear) << c.sampler;
