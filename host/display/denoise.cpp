@@ -17,7 +17,7 @@ struct Candidate {
     int patch;
     float strength;
 };
-constexpr Candidate candidates[] = {{3, 0.45f}, {1, 1.2f}};
+constexpr Candidate candidates[] = {{3, 0.45f}, {1, 0.6f}, {1, 1.2f}};
 constexpr std::uint32_t candidate_count = std::size(candidates);
 
 /// Of the distances of some rows.
@@ -36,8 +36,8 @@ float middle_depth(const Film& film) {
 
 class OwnDenoiser {
   public:
-    OwnDenoiser(Device& device, const Film& film)
-        : device_(device), film_(film), lanes_(display_shape(device.info()).lanes) {
+    OwnDenoiser(Device& device, const Film& film, std::optional<unsigned> lanes)
+        : device_(device), film_(film), lanes_(lanes.value_or(display_shape(device.info()).lanes)) {
         shape_.width = film.width, shape_.height = film.height;
         shape_.stride = (film.width + 15) / 16 * 16 + 2 * DENOISE_MARGIN;
         shape_.plane = shape_.stride * (film.height + 2 * DENOISE_MARGIN);
@@ -172,10 +172,10 @@ void require_denoisable(const Film& film) {
                     "samples at least (--spp).");
 }
 
-BinImage denoised(Device& device, const Film& film, Denoiser denoiser) {
+BinImage denoised(Device& device, const Film& film, Denoiser denoiser, std::optional<unsigned> lanes) {
     require_denoisable(film);
     BinImage image{.columns = film.width, .rows = film.height, .rgba = {}};
-    image.rgba = denoiser == Denoiser::own    ? OwnDenoiser(device, film).run()
+    image.rgba = denoiser == Denoiser::own    ? OwnDenoiser(device, film, lanes).run()
                  : denoiser == Denoiser::oidn ? open_image_denoised(film)
                                               : resolve_linear(film);
     return image;

@@ -16,8 +16,8 @@ namespace triad {
 namespace {
 
 // Open Image Denoise 2, oidn.h: the part that is used.
-using Device = void*;
-using Filter = void*;
+using OidnDevice = void*;
+using OidnFilter = void*;
 constexpr int device_cpu = 1, format_float3 = 3;
 
 /// Where Python keeps what pip installs: pyoidn brings the library.
@@ -86,23 +86,24 @@ std::vector<float> open_image_denoised(const Film& film) {
             }
     }
     const auto set_image =
-        library.function<void(Filter, const char*, void*, int, std::size_t, std::size_t, std::size_t,
+        library.function<void(OidnFilter, const char*, void*, int, std::size_t, std::size_t, std::size_t,
                               std::size_t, std::size_t)>("oidnSetSharedFilterImage");
-    const auto release_filter = library.function<void(Filter)>("oidnReleaseFilter");
-    const auto release_device = library.function<void(Device)>("oidnReleaseDevice");
-    const auto error_of = library.function<int(Device, const char**)>("oidnGetDeviceError");
+    const auto release_filter = library.function<void(OidnFilter)>("oidnReleaseFilter");
+    const auto release_device = library.function<void(OidnDevice)>("oidnReleaseDevice");
+    const auto error_of = library.function<int(OidnDevice, const char**)>("oidnGetDeviceError");
 
-    const Device device = library.function<Device(int)>("oidnNewDevice")(device_cpu);
-    library.function<void(Device)>("oidnCommitDevice")(device);
-    const Filter filter = library.function<Filter(Device, const char*)>("oidnNewFilter")(device, "RT");
+    const OidnDevice device = library.function<OidnDevice(int)>("oidnNewDevice")(device_cpu);
+    library.function<void(OidnDevice)>("oidnCommitDevice")(device);
+    const OidnFilter filter =
+        library.function<OidnFilter(OidnDevice, const char*)>("oidnNewFilter")(device, "RT");
     const auto image = [&](const char* name, std::vector<float>& values) {
         if (!values.empty())
             set_image(filter, name, values.data(), format_float3, film.width, film.height, 0, 0, 0);
     };
     image("color", colour), image("albedo", albedo), image("normal", normal), image("output", result);
-    library.function<void(Filter, const char*, bool)>("oidnSetFilterBool")(filter, "hdr", true);
-    library.function<void(Filter)>("oidnCommitFilter")(filter);
-    library.function<void(Filter)>("oidnExecuteFilter")(filter);
+    library.function<void(OidnFilter, const char*, bool)>("oidnSetFilterBool")(filter, "hdr", true);
+    library.function<void(OidnFilter)>("oidnCommitFilter")(filter);
+    library.function<void(OidnFilter)>("oidnExecuteFilter")(filter);
     const char* message = nullptr;
     const int error = error_of(device, &message);
     const std::string why = error != 0 && message ? message : "";

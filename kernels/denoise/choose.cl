@@ -1,7 +1,10 @@
 /* What goes into the denoiser, and which of its candidates a pixel takes. */
 #include "denoise/denoise.h"
 
-/* Planes of what the samples say. first, second: HalfMeans (host/scene/film.h), [pixel][3]. */
+/* Planes of what the samples say. first, second: HalfMeans (host/scene/film.h), [pixel][3]. The variance is
+ * that of the mean absolute difference around: the mean square would be the few bright pixels' alone, and
+ * dark ones beside a lamp would take its light for noise. Those, too, are why r is not above the pixel's own
+ * mean. */
 kernel void fill_planes(global const DenoiseShape* shape, global const float* first,
                         global const float* second, global float* planes) {
     const uint cell = (uint)get_global_id(0);
@@ -9,24 +12,24 @@ kernel void fill_planes(global const DenoiseShape* shape, global const float* fi
     const int x = denoise_inside((int)(cell % shape->stride) - DENOISE_MARGIN, shape->width);
     const int y = denoise_inside((int)(cell / shape->stride) - DENOISE_MARGIN, shape->height);
     for (uint c = 0u; c < 3u; ++c) {
-        float variance = 0.0f, mean = 0.0f;
+        float deviation = 0.0f, mean = 0.0f;
         for (int j = -DENOISE_VARIANCE_REACH; j <= DENOISE_VARIANCE_REACH; ++j)
             for (int i = -DENOISE_VARIANCE_REACH; i <= DENOISE_VARIANCE_REACH; ++i) {
                 const size_t q = 3u * ((size_t)denoise_inside(y + j, shape->height) * shape->width +
                                        (size_t)denoise_inside(x + i, shape->width)) +
                                  c;
-                const float difference = first[q] - second[q];
-                variance += difference * difference;
+                deviation += fabs(first[q] - second[q]);
                 if (abs(i) <= DENOISE_ERROR_REACH && abs(j) <= DENOISE_ERROR_REACH)
                     mean += first[q] + second[q];
             }
         const float side = 2.0f * DENOISE_VARIANCE_REACH + 1.0f, inner = 2.0f * DENOISE_ERROR_REACH + 1.0f;
-        mean = fmax(mean / (2.0f * inner * inner), 0.0f);
+        deviation /= side * side;
         const size_t own = 3u * ((size_t)y * shape->width + (size_t)x) + c;
+        const float r = fmax(0.5f * fmin(mean / (inner * inner), first[own] + second[own]), 0.0f);
         planes[(size_t)(DENOISE_FIRST + c) * shape->plane + cell] = first[own];
         planes[(size_t)(DENOISE_SECOND + c) * shape->plane + cell] = second[own];
-        planes[(size_t)(DENOISE_VARIANCE + c) * shape->plane + cell] = variance / (2.0f * side * side);
-        planes[(size_t)(DENOISE_WEIGHT + c) * shape->plane + cell] = 1.0f / (mean * mean + 0.01f);
+        planes[(size_t)(DENOISE_VARIANCE + c) * shape->plane + cell] = 0.75f * deviation * deviation;
+        planes[(size_t)(DENOISE_WEIGHT + c) * shape->plane + cell] = 1.0f / (r * r + 0.01f);
     }
 }
 

@@ -17,13 +17,6 @@
 #define DENOISE_TERMS (DENOISE_USED + 1)
 #define DENOISE_GRAM (DENOISE_TERMS * (DENOISE_TERMS + 1) / 2)
 
-/* Planes of what the samples say, one after the other. */
-#define DENOISE_FIRST 0u    /* [3] mean of the first half */
-#define DENOISE_SECOND 3u   /* [3] of the second */
-#define DENOISE_VARIANCE 6u /* [3] of a half, a mean over neighbours */
-#define DENOISE_WEIGHT 9u   /* [3] of a squared error: 1 / (r^2 + 0.01), r a mean over neighbours */
-#define DENOISE_PLANES 12u
-
 /* Pixels on each side over which a half's variance, r, and errors are averaged. */
 #define DENOISE_VARIANCE_REACH 3
 #define DENOISE_ERROR_REACH 2
@@ -35,6 +28,5 @@ TRIAD_FUNCTION size_t denoise_at(global const DenoiseShape* shape, int x, int y)
 TRIAD_FUNCTION int denoise_inside(int i, uint size) { return clamp(i, 0, (int)size - 1); }
 /* Of entry (i, j), j <= i, in a lower triangle. */
 #define DENOISE_ENTRY(i, j) ((i) * ((i) + 1) / 2 + (j))
-#define DENOISE_EACH_LANE for (uint l = 0u; l < DENOISE_LANES; ++l)
 
 #endif

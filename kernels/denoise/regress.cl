@@ -4,9 +4,32 @@
  * Means Filtering"). */
 #include "denoise/denoise.h"
 
+#if DENOISE_LANES == 16
+typedef float16 Lanes;
+#define LANES_LOAD(p) vload16(0, p)
+#define LANES_STORE(v, p) vstore16(v, 0, p)
+#define LANES_INDICES ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#define LANES_WHERE(condition, v) select((Lanes)(0.0f), v, condition)
+#elif DENOISE_LANES == 1
+typedef float Lanes;
+#define LANES_LOAD(p) (*(p))
+#define LANES_STORE(v, p) (*(p) = (v))
+#define LANES_INDICES 0
+#define LANES_WHERE(condition, v) ((condition) ? (v) : 0.0f)
+#endif
+
+/* Neighbours whose products are added at once, a row of them on a CPU: sums are read and written as often
+ * less.
+ */
+#if DENOISE_LANES > 1
+#define DENOISE_ABREAST DENOISE_SIDE
+#else
+#define DENOISE_ABREAST 1
+#endif
+
 /* Squared differences of the pixels of `rows` rows from `first_row` on (and DENOISE_PATCH rows more on each
  * side) to those that they look at, over the variance that they have by noise: [offset][row][cell].
- * half: DENOISE_FIRST or DENOISE_SECOND. */
+ * half_planes: DENOISE_FIRST or DENOISE_SECOND. */
 kernel void measure_distances(global const DenoiseShape* shape, global const float* planes, uint half_planes,
                               uint first_row, uint rows, global float* distances) {
     const uint runs = shape->stride / DENOISE_LANES, tall = rows + 2u * DENOISE_PATCH;
@@ -18,40 +41,67 @@ kernel void measure_distances(global const DenoiseShape* shape, global const flo
     const uint cell = run * DENOISE_LANES;
     const int dy = (int)(offset / DENOISE_SIDE) - DENOISE_REACH,
               dx = (int)(offset % DENOISE_SIDE) - DENOISE_REACH;
-    float sums[DENOISE_LANES];
-    DENOISE_EACH_LANE sums[l] = 0.0f;
     const size_t line =
         (size_t)((int)(first_row + row) - DENOISE_PATCH + DENOISE_MARGIN) * shape->stride + cell;
     const size_t other = line + (size_t)((ptrdiff_t)dy * (ptrdiff_t)shape->stride + dx);
+    Lanes sum = (Lanes)(0.0f);
     for (uint c = 0u; c < 3u; ++c) {
         global const float* colours = planes + (size_t)(half_planes + c) * shape->plane;
         global const float* variances = planes + (size_t)(DENOISE_VARIANCE + c) * shape->plane;
-        DENOISE_EACH_LANE {
-            const float difference = colours[line + l] - colours[other + l];
-            const float own = variances[line + l], others = variances[other + l];
-            sums[l] += (difference * difference - (own + fmin(own, others))) / (1e-10f + own + others);
-        }
+        const Lanes difference = LANES_LOAD(colours + line) - LANES_LOAD(colours + other);
+        const Lanes own = LANES_LOAD(variances + line), others = LANES_LOAD(variances + other);
+        sum += (difference * difference - (own + fmin(own, others))) / (1e-10f + own + others);
     }
-    global float* to = distances + ((size_t)offset * tall + row) * shape->stride + cell;
-    DENOISE_EACH_LANE to[l] = sums[l] * (1.0f / 3.0f);
+    LANES_STORE(sum * (1.0f / 3.0f), distances + ((size_t)offset * tall + row) * shape->stride + cell);
 }
 
-/* Solves the normal equations for the constant term: what is left of the first row when the others are
- * eliminated. gram: lower triangle; sums: [term][channel]. */
-TRIAD_FUNCTION void denoise_solve(float gram[DENOISE_GRAM][DENOISE_LANES],
-                                  float sums[DENOISE_TERMS * 3][DENOISE_LANES]) {
-    for (int n = DENOISE_TERMS - 1; n > 0; --n) {
-        float inverse[DENOISE_LANES];
-        DENOISE_EACH_LANE inverse[l] = 1.0f / gram[DENOISE_ENTRY(n, n)][l];
-        for (int i = 0; i < n; ++i) {
-            float factor[DENOISE_LANES];
-            DENOISE_EACH_LANE factor[l] = gram[DENOISE_ENTRY(n, i)][l] * inverse[l];
-            for (int j = 0; j <= i; ++j)
-                DENOISE_EACH_LANE gram[DENOISE_ENTRY(i, j)][l] -= factor[l] * gram[DENOISE_ENTRY(n, j)][l];
-            for (int c = 0; c < 3; ++c)
-                DENOISE_EACH_LANE sums[i * 3 + c][l] -= factor[l] * sums[n * 3 + c][l];
+/* Normal equations of a pixel. gram: lower triangle; sums: [term][channel]. */
+typedef struct DenoiseNormal {
+    Lanes gram[DENOISE_GRAM], sums[DENOISE_TERMS * 3];
+} DenoiseNormal;
+
+/* The products of DENOISE_ABREAST neighbours. values: their terms, then their colours. */
+TRIAD_FUNCTION void denoise_add(DenoiseNormal* normal, const Lanes* weights,
+                                Lanes values[DENOISE_TERMS + 3][DENOISE_ABREAST]) {
+    for (int i = 0; i < DENOISE_TERMS; ++i) {
+        Lanes weighted[DENOISE_ABREAST];
+#pragma unroll
+        for (int k = 0; k < DENOISE_ABREAST; ++k) weighted[k] = weights[k] * values[i][k];
+        for (int j = 0; j <= i; ++j) {
+            Lanes sum = normal->gram[DENOISE_ENTRY(i, j)];
+#pragma unroll
+            for (int k = 0; k < DENOISE_ABREAST; ++k) sum = fma(weighted[k], values[j][k], sum);
+            normal->gram[DENOISE_ENTRY(i, j)] = sum;
+        }
+        for (int c = 0; c < 3; ++c) {
+            Lanes sum = normal->sums[i * 3 + c];
+#pragma unroll
+            for (int k = 0; k < DENOISE_ABREAST; ++k)
+                sum = fma(weighted[k], values[DENOISE_TERMS + c][k], sum);
+            normal->sums[i * 3 + c] = sum;
         }
     }
+}
+
+/* Solves them for the constant term: what is left of the first row when the others are eliminated. */
+TRIAD_FUNCTION void denoise_solve(DenoiseNormal* normal) {
+    for (int n = DENOISE_TERMS - 1; n > 0; --n) {
+        const Lanes inverse = 1.0f / normal->gram[DENOISE_ENTRY(n, n)];
+        for (int i = 0; i < n; ++i) {
+            const Lanes factor = normal->gram[DENOISE_ENTRY(n, i)] * inverse;
+            for (int j = 0; j <= i; ++j)
+                normal->gram[DENOISE_ENTRY(i, j)] -= factor * normal->gram[DENOISE_ENTRY(n, j)];
+            for (int c = 0; c < 3; ++c) normal->sums[i * 3 + c] -= factor * normal->sums[n * 3 + c];
+        }
+    }
+}
+
+/* Sum over a patch of distances, which lie in rows of `stride`. */
+TRIAD_FUNCTION Lanes denoise_patch(global const float* distances, int stride, int patch) {
+    Lanes sum = (Lanes)(0.0f);
+    for (int j = -patch; j <= patch; ++j)
+        for (int i = -patch; i <= patch; ++i) sum += LANES_LOAD(distances + j * stride + i);
+    return sum;
 }
 
 /* The pixels of `rows` rows from `first_row` on. half_planes: whose colours; the distances are of the other
@@ -63,50 +113,44 @@ kernel void regress(global const DenoiseShape* shape, global const float* planes
                     float scale, global float* out, uint out_planes) {
     const uint runs = (shape->width + DENOISE_LANES - 1u) / DENOISE_LANES, item = (uint)get_global_id(0),
                run = item % runs, row = item / runs;
-    if (row >= rows || first_row + row >= shape->height) return;
-    const int y = (int)(first_row + row), x = (int)(run * DENOISE_LANES);
+    if (row >= rows) return;
+    const int y = (int)(first_row + row), x = (int)(run * DENOISE_LANES), stride = (int)shape->stride,
+              width = (int)shape->width;
     const size_t at = denoise_at(shape, x, y), plane = shape->plane;
-    const int stride = (int)shape->stride;
     global const float* colours = planes + half_planes * plane;
-    float gram[DENOISE_GRAM][DENOISE_LANES], sums[DENOISE_TERMS * 3][DENOISE_LANES];
-    float terms[DENOISE_TERMS][DENOISE_LANES], weighted[DENOISE_LANES], weights[DENOISE_LANES];
-    for (int i = 0; i < DENOISE_GRAM; ++i) DENOISE_EACH_LANE gram[i][l] = 0.0f;
-    for (int i = 0; i < DENOISE_TERMS * 3; ++i) DENOISE_EACH_LANE sums[i][l] = 0.0f;
-    DENOISE_EACH_LANE terms[0][l] = 1.0f;
-    for (int offset = 0; offset < DENOISE_SIDE * DENOISE_SIDE; ++offset) {
-        const int dy = offset / DENOISE_SIDE - DENOISE_REACH, dx = offset % DENOISE_SIDE - DENOISE_REACH;
-        if (y + dy < 0 || y + dy >= (int)shape->height) continue;
-        global const float* distance =
-            distances + ((size_t)offset * (rows + 2u * DENOISE_PATCH) + row + DENOISE_PATCH) * shape->stride +
-            (size_t)(x + DENOISE_MARGIN);
-        DENOISE_EACH_LANE weights[l] = 0.0f;
-        for (int j = -patch; j <= patch; ++j)
-            for (int i = -patch; i <= patch; ++i)
-                DENOISE_EACH_LANE weights[l] += distance[j * stride + i + (int)l];
-        DENOISE_EACH_LANE {
-            const int other = x + (int)l + dx;
-            weights[l] =
-                other >= 0 && other < (int)shape->width ? exp(-fmax(weights[l] * scale, 0.0f)) : 0.0f;
-        }
-        const size_t q = at + (size_t)((ptrdiff_t)dy * stride + dx);
-        for (int i = 1; i < DENOISE_TERMS; ++i) {
-            global const float* guide = guides + (size_t)(i - 1) * plane;
-            DENOISE_EACH_LANE terms[i][l] = guide[q + l] - guide[at + l];
-        }
-        for (int i = 0; i < DENOISE_TERMS; ++i) {
-            DENOISE_EACH_LANE weighted[l] = weights[l] * terms[i][l];
-            for (int j = 0; j <= i; ++j)
-                DENOISE_EACH_LANE gram[DENOISE_ENTRY(i, j)][l] += weighted[l] * terms[j][l];
-            for (int c = 0; c < 3; ++c) {
-                global const float* colour = colours + (size_t)c * plane;
-                DENOISE_EACH_LANE sums[i * 3 + c][l] += weighted[l] * colour[q + l];
+    DenoiseNormal normal;
+    Lanes values[DENOISE_TERMS + 3][DENOISE_ABREAST], weights[DENOISE_ABREAST];
+    for (int i = 0; i < DENOISE_GRAM; ++i) normal.gram[i] = (Lanes)(0.0f);
+    for (int i = 0; i < DENOISE_TERMS * 3; ++i) normal.sums[i] = (Lanes)(0.0f);
+    for (int k = 0; k < DENOISE_ABREAST; ++k) values[0][k] = (Lanes)(1.0f);
+    const int left_above = y, left_below = (int)shape->height - 1 - y;
+    const int above = left_above < DENOISE_REACH ? -left_above : -DENOISE_REACH,
+              below = left_below < DENOISE_REACH ? left_below : DENOISE_REACH;
+    for (int dy = above; dy <= below; ++dy)
+        for (int first = -DENOISE_REACH; first <= DENOISE_REACH; first += DENOISE_ABREAST) {
+            for (int k = 0; k < DENOISE_ABREAST; ++k) {
+                const int dx = first + k, offset = (dy + DENOISE_REACH) * DENOISE_SIDE + dx + DENOISE_REACH;
+                global const float* distance =
+                    distances +
+                    ((size_t)offset * (rows + 2u * DENOISE_PATCH) + row + DENOISE_PATCH) * shape->stride +
+                    (size_t)(x + DENOISE_MARGIN);
+                const Lanes weight = exp(-fmax(denoise_patch(distance, stride, patch) * scale, 0.0f));
+                weights[k] =
+                    LANES_WHERE((x + dx + LANES_INDICES >= 0) & (x + dx + LANES_INDICES < width), weight);
+                const size_t q = at + (size_t)((ptrdiff_t)dy * stride + dx);
+                for (int i = 1; i < DENOISE_TERMS; ++i) {
+                    global const float* guide = guides + (size_t)(i - 1) * plane;
+                    values[i][k] = LANES_LOAD(guide + q) - LANES_LOAD(guide + at);
+                }
+                for (int c = 0; c < 3; ++c)
+                    values[DENOISE_TERMS + c][k] = LANES_LOAD(colours + (size_t)c * plane + q);
             }
+            denoise_add(&normal, weights, values);
         }
-    }
     /* A ridge: guides that hardly change around a pixel explain nothing. */
     for (int i = 1; i < DENOISE_TERMS; ++i)
-        DENOISE_EACH_LANE gram[DENOISE_ENTRY(i, i)][l] += 3e-4f * gram[0][l] + 1e-9f;
-    denoise_solve(gram, sums);
+        normal.gram[DENOISE_ENTRY(i, i)] += 3e-4f * normal.gram[0] + 1e-9f;
+    denoise_solve(&normal);
     for (int c = 0; c < 3; ++c)
-        DENOISE_EACH_LANE out[(out_planes + (size_t)c) * plane + at + l] = sums[c][l] / gram[0][l];
+        LANES_STORE(normal.sums[c] / normal.gram[0], out + (out_planes + (size_t)c) * plane + at);
 }

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/hash.h"
 #include "io/io.h"
+#include "kernels/types.h"
 #include "sentence_of.h"
 #include "synthetic_film.h"
 
@@ -32,6 +33,28 @@ TEST(FilmFile, comes_back_as_it_was) {
     EXPECT_EQ(back.bins_y, 1u);
     EXPECT_EQ(back.x, 1u);
     EXPECT_EQ(back.height, 3u);
+}
+
+TEST(FilmFile, guides_come_back_and_are_those_of_the_first_samples) {
+    const TemporaryFolder folder;
+    const auto guided = [](SampleRange range, float value) {
+        Film film = synthetic(range);
+        film.has_guides = true;
+        film.guides.assign(film.pixels() * DENOISE_GUIDES, value);
+        film.guides.back() = -value;
+        return film;
+    };
+    const Film early = guided({0, 4}, 1), late = guided({4, 9}, 2), bare = synthetic({9, 11});
+    save_film(folder / "early.film", early), save_film(folder / "late.film", late);
+    save_film(folder / "bare.film", bare);
+    EXPECT_EQ(load_film(folder / "early.film").guides, early.guides);
+    merge_films({folder / "bare.film", folder / "late.film", folder / "early.film"}, folder / "all.film");
+    const Film all = load_film(folder / "all.film");
+    EXPECT_EQ(all.guides, early.guides);
+    EXPECT_EQ(read_file(folder / "all.film"), bytes_of(merge(std::vector<Film>{late, bare, early}), folder));
+    EXPECT_EQ(all.sums, merge(std::vector<Film>{synthetic({0, 11})}).sums);
+    merge_films({folder / "late.film", folder / "bare.film"}, folder / "two.film");
+    EXPECT_EQ(load_film(folder / "two.film").guides, late.guides);
 }
 
 TEST(FilmFile, every_truncation_is_refused) {

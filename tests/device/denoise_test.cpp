@@ -1,0 +1,136 @@
+// The denoiser on films whose truth is known.
+#include "display/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "base/error.h"
+#include "device_fixture.h"
+#include "kernels/types.h"
+
+using namespace triad;
+
+namespace {
+
+constexpr unsigned width = 75, height = 41, samples = 16;  // no multiple of any vector
+
+/// A floor of light and dark tiles in a light that fades, and a wall: [pixel][R, G, B].
+struct Truth {
+    std::vector<double> colour;
+    std::vector<float> guides;
+};
+
+Truth floor_and_wall() {
+    Truth truth;
+    for (unsigned y = 0; y < height; ++y)
+        for (unsigned x = 0; x < width; ++x) {
+            const bool floor = y > height / 2;
+            const double albedo = floor ? ((x / 5 + y / 5) % 2 ? 0.8 : 0.1) : 0.5;
+            const double light = 0.3 + 2.0 * std::exp(-std::hypot(x - 20.0, y - 15.0) / 20);
+            for (const double tint : {1.0, 0.8, 0.5}) truth.colour.push_back(albedo * light * tint);
+            for (int c = 0; c < 3; ++c) truth.guides.push_back(float(albedo));
+            for (const float n : {0.0f, floor ? 1.0f : 0.0f, floor ? 0.0f : 1.0f}) truth.guides.push_back(n);
+            truth.guides.push_back(floor ? 4.0f + float(height - y) * 0.1f : 8.0f);
+        }
+    return truth;
+}
+
+/// Halves of `samples` with noise of that standard deviation per sample, relative.
+Film noisy_film(const Truth& truth, double deviation) {
+    Film film;
+    film.full_width = film.width = width, film.full_height = film.height = height;
+    film.quanta_log2 = 24;
+    film.samples.assign(film.pixels(), samples);
+    film.ranges = {{0, samples}};
+    film.guides = truth.guides, film.has_guides = true;
+    std::mt19937 random(7);
+    std::gamma_distribution<double> gamma(deviation > 0 ? 1 / (deviation * deviation) : 1,
+                                          deviation * deviation);
+    const double unit = std::ldexp(1.0, film.quanta_log2);
+    for (std::size_t i = 0; i < film.pixels(); ++i) {
+        double sums[4] = {0, 0, 0, 0.5 * samples}, half[3] = {};
+        for (unsigned s = 0; s < samples; ++s) {
+            const double factor = deviation > 0 ? gamma(random) : 1;
+            for (int c = 0; c < 3; ++c) {
+                sums[c] += truth.colour[3 * i + c] * factor;
+                if (s % 2 == 0) half[c] += truth.colour[3 * i + c] * factor;
+            }
+        }
+        for (const double sum : sums) film.sums.push_back(std::llround(sum * unit));
+        for (const double sum : half) film.half_sums.push_back(std::llround(sum * unit));
+    }
+    return film;
+}
+
+double relmse(const std::vector<float>& rgba, const Truth& truth) {
+    double sum = 0;
+    for (std::size_t i = 0; i < truth.colour.size(); ++i) {
+        const double r = truth.colour[i], x = rgba[i / 3 * 4 + i % 3];
+        sum += (x - r) * (x - r) / (r * r + 0.01);
+    }
+    return sum / double(truth.colour.size());
+}
+
+}  // namespace
+
+TEST(Denoise, takes_most_of_the_noise_and_leaves_edges) {
+    const Truth truth = floor_and_wall();
+    const Film film = noisy_film(truth, 1.0);
+    const double before = relmse(resolve_linear(film), truth);
+    EXPECT_NEAR(before, 1.0 / samples, 0.02);
+    const std::vector<float> after = denoised(test_device(), film, Denoiser::own).rgba;
+    EXPECT_LT(relmse(after, truth), before / 6);
+    for (std::size_t i = 3; i < after.size(); i += 4) ASSERT_EQ(after[i], 0.5f) << "alpha";
+}
+
+TEST(Denoise, works_without_guides_by_colours_alone) {
+    const Truth truth = floor_and_wall();
+    Film film = noisy_film(truth, 0.5);
+    film.guides.clear(), film.has_guides = false;
+    EXPECT_LT(relmse(denoised(test_device(), film, Denoiser::own).rgba, truth),
+              relmse(resolve_linear(film), truth) / 2);
+}
+
+TEST(Denoise, leaves_what_has_no_noise) {
+    const Truth truth = floor_and_wall();
+    EXPECT_LT(relmse(denoised(test_device(), noisy_film(truth, 0), Denoiser::own).rgba, truth), 1e-9);
+}
+
+TEST(Denoise, lanes_do_not_change_the_picture) {
+    const Truth truth = floor_and_wall();
+    const Film film = noisy_film(truth, 1.0);
+    const std::vector<float> sixteen = denoised(test_device(), film, Denoiser::own, 16).rgba,
+                             one = denoised(test_device(), film, Denoiser::own, 1).rgba;
+    ASSERT_EQ(sixteen.size(), one.size());
+    // exp of vectors and of scalars may round differently, and a choice between equals may turn.
+    double worst = 0, mean = 0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const double difference = std::abs(double(sixteen[i]) - one[i]);
+        worst = std::max(worst, difference), mean += difference / double(one.size());
+    }
+    EXPECT_LT(mean, 1e-4);
+    EXPECT_LT(worst, 0.1);
+}
+
+TEST(Denoise, a_picture_of_one_pixel_and_one_of_one_row) {
+    for (const auto& [w, h] : {std::pair{1u, 1u}, {40u, 1u}, {1u, 40u}}) {
+        Film film = noisy_film(floor_and_wall(), 0.5);
+        film.width = film.full_width = w, film.height = film.full_height = h;
+        film.sums.resize(film.pixels() * 4), film.half_sums.resize(film.pixels() * 3);
+        film.samples.resize(film.pixels()), film.guides.resize(film.pixels() * DENOISE_GUIDES);
+        for (const float value : denoised(test_device(), film, Denoiser::own).rgba)
+            ASSERT_TRUE(std::isfinite(value));
+    }
+}
+
+TEST(Denoise, films_that_do_not_know_their_noise_are_refused) {
+    Film film = noisy_film(floor_and_wall(), 0.5);
+    film.samples[5] = 1;
+    EXPECT_THROW(denoised(test_device(), film, Denoiser::own), Error);
+    film = noisy_film(floor_and_wall(), 0.5);
+    film.bins_x = 3;
+    EXPECT_THROW(denoised(test_device(), film, Denoiser::own), Error);
+}

@@ -1,0 +1,79 @@
+// What --denoise promises, through the command line.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "io/io.h"
+#include "program.h"
+#include "unit/temporary_folder.h"
+
+namespace fs = std::filesystem;
+using namespace triad;
+
+namespace {
+
+void expect_exit(int exit, const std::string& arguments, const std::string& says = "") {
+    const Outcome outcome = run_triad(arguments);
+    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
+    EXPECT_NE(outcome.output.find(says), std::string::npos) << arguments << "\n" << outcome.output;
+}
+
+}  // namespace
+
+TEST(DenoiseCommand, halves_the_error_and_says_so) {
+    const TemporaryFolder folder;
+    const std::string film = (folder / "a.film").string(), raw = (folder / "raw.exr").string(),
+                      own = (folder / "own.exr").string(), again = (folder / "again.exr").string();
+    expect_exit(0, "render --size 128x72 --spp 16 --seed 3 --denoise own --film " + film + " -o " + own,
+                "before own denoised it");
+    expect_exit(0, "resolve " + film + " --denoise own -o " + again);
+    expect_exit(0, "resolve " + film + " -o " + raw);
+    EXPECT_EQ(read_picture(own).find("G")->values, read_picture(again).find("G")->values);
+    const std::string reference = std::string(TRIAD_SCENES) + "/references/built-in.exr";
+    expect_exit(7, "compare " + raw + " " + reference + " --max-relmse 0.03");
+    expect_exit(0, "compare " + own + " " + reference + " --max-relmse 0.015");
+    const Metadata metadata = read_picture(own).metadata, samples = read_picture(raw).metadata;
+    EXPECT_EQ(metadata.at("triad:denoise"), "own");
+    EXPECT_FALSE(metadata.contains("triad:relmse")) << "that of the samples, not of the picture";
+    EXPECT_TRUE(samples.contains("triad:relmse"));
+    EXPECT_FALSE(samples.contains("triad:denoise"));
+}
+
+TEST(DenoiseCommand, a_film_without_guides_is_denoised_by_colours) {
+    const TemporaryFolder folder;
+    const std::string film = (folder / "a.film").string();
+    expect_exit(0, "render --size 48x27 --spp 4 -q --film " + film);
+    expect_exit(0, "resolve " + film + " --denoise own -o " + (folder / "a.png").string(), "colours alone");
+}
+
+TEST(DenoiseCommand, what_cannot_be_is_said_before_anything_is_rendered) {
+    const TemporaryFolder folder;
+    const std::string out = " -o " + (folder / "a.exr").string();
+    expect_exit(1, "render --denoise strongly" + out, "off, own and oidn");
+    expect_exit(1, "render --denoise own --spp 1" + out, "two halves");
+    expect_exit(1, "render --denoise own --aov variance" + out, "tells of the samples");
+    expect_exit(1, "render --denoise own --panel rgb" + out, "several bins");
+    expect_exit(1, "render --denoise own --pixel 3,4", "none is made");
+    expect_exit(0, "render --size 16x9 --spp 4 -q" + out);
+    expect_exit(1, "resolve " + (folder / "a.exr").string() + " --denoise own -o " + (folder / "b.exr").string(),
+                "know their noise");
+    EXPECT_FALSE(fs::exists(folder / "b.exr"));
+}
+
+TEST(DenoiseCommand, open_image_denoise_is_told_how_to_get_where_it_is_not) {
+    const TemporaryFolder folder;
+    const std::string film = (folder / "a.film").string();
+    expect_exit(0, "render --size 32x18 --spp 4 -q --denoise own --film " + film);
+    const std::string resolve = "resolve " + film + " --denoise oidn -o " + (folder / "a.png").string();
+    const Outcome missing = run_triad(resolve, "TRIAD_OIDN=/nowhere/libOpenImageDenoise.so");
+    EXPECT_EQ(missing.exit, 3) << missing.output;
+    EXPECT_NE(missing.output.find("TRIAD_OIDN"), std::string::npos) << missing.output;
+    const Outcome found = run_triad(resolve);
+    if (found.exit == 3) {
+        EXPECT_NE(found.output.find("pip install pyoidn"), std::string::npos) << found.output;
+        GTEST_SKIP() << "Open Image Denoise is not installed";
+    }
+    EXPECT_EQ(found.exit, 0) << found.output;
+    EXPECT_EQ(read_picture(folder / "a.png").metadata.at("triad:denoise"), "oidn");
+}
