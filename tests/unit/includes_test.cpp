@@ -62,8 +62,13 @@ const std::map<std::string, Names> owners = {
 /// Which folders of kernels/ the headers of a folder may include from, beside itself and common. Programs
 /// (.cl) compose them all.
 const std::map<std::string, Names> kernels_below = {
-    {"common", {}}, {"traversal", {}}, {"shading", {}},
-    {"photon", {}}, {"subpixel", {}},  {"path", {"traversal", "shading", "photon"}},
+    {"common", {}},
+    {"traversal", {}},
+    {"shading", {}},
+    {"photon", {}},
+    {"subpixel", {}},
+    {"denoise", {}},
+    {"path", {"traversal", "shading", "photon"}},
 };
 
 /// The files of kernels/ that C++ reads too.
