@@ -130,6 +130,21 @@ void declare_camera(CLI::App& command, RenderRequest& o) {
     CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
                               ->type_name("NAME|INDEX")
                               ->group(view_group);
+    add_parsed(
+        command, "--orbit", "AZIMUTH,ELEVATION[,ZOOM]",
+        "Frame the scene from there, in degrees from the front to the right and upwards; 2 is twice as large",
+        [&o](const std::string& v) {
+            const bool zoomed = std::count(v.begin(), v.end(), ',') > 1;
+            const auto n = parse_numbers("--orbit", v, zoomed ? 3 : 2);
+            o.orbit = {n[0], n[1], zoomed ? n[2] : 1.0};
+            if (std::abs(n[0]) > 1e6 || std::abs(n[1]) > 89.9 ||
+                !((*o.orbit)[2] >= 0.01 && (*o.orbit)[2] <= 1000))
+                throw Error(Exit::usage, "--orbit " + v +
+                                             ": expected an elevation within 89.9 degrees and a "
+                                             "zoom of .01 to 1000.");
+        })
+        ->excludes(camera)
+        ->group(view_group);
     add_parsed(command, "--look-at", "EX,EY,EZ,TX,TY,TZ", "From this eye point to this target",
                [&o](const std::string& v) {
                    const auto n = parse_numbers("--look-at", v, 6);
@@ -182,6 +197,20 @@ void declare_light(CLI::App& command, RenderRequest& o) {
     CLI::Option* env = command.add_option("--env", o.env_path, "Lat-long environment, .hdr or .exr")
                            ->type_name("FILE")
                            ->group(light_group);
+    add_parsed(command, "--look", "studio|sky|white",
+               "Light of Triad's own making (default: studio, where the scene has no light)",
+               [&o](const std::string& v) { o.look = look_named(v); })
+        ->excludes(env)
+        ->group(light_group);
+    add_parsed(command, "--ground", "on|off|auto",
+               "A matte floor below the scene (auto, the default: where it has neither light nor camera)",
+               [&o](const std::string& v) {
+                   if (v != "on" && v != "off" && v != "auto")
+                       throw Error(Exit::usage, "--ground " + v + ": there are on, off and auto.");
+                   o.ground.reset();
+                   if (v != "auto") o.ground = v == "on";
+               })
+        ->group(light_group);
     command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis, from +x towards +z")
         ->check(number_within(-1e6, 1e6))
         ->type_name("DEG")

@@ -79,7 +79,7 @@ void FarthestPoint::add_blocks(const Scene& scene, bool all) {
     }
     for (const MeshInstance& instance : scene.instances) {
         const MeshBlocks& mesh = meshes_[instance.mesh];
-        if (instance.is_drawn_strokes || mesh.blocks.empty()) continue;
+        if (instance.is_drawn_strokes || instance.is_ground || mesh.blocks.empty()) continue;
         const dmat3 m(instance.to_world);
         Placed placed{&instance, {}};
         placed.box.centre = transform_point(instance.to_world, mesh.box.centre);

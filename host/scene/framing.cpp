@@ -33,9 +33,9 @@ double centred(const FarthestPoint& farthest, const dvec3& axis, const dvec3& fo
 
 }  // namespace
 
-View frame(const Scene& scene, double yfov, double aspect) {
+View frame(const Scene& scene, double yfov, double aspect, const dvec3& towards_eye) {
     const FarthestPoint farthest(scene);
-    View view = look_at(glm::normalize(dvec3(0.5, 0.35, 1.0)), dvec3(0.0), yfov, aspect);
+    View view = look_at(glm::normalize(towards_eye), dvec3(0.0), yfov, aspect);
     const dvec3 forward = view.forward, axes[2] = {view.right, view.up};
 
     const double near = glm::dot(forward, farthest(-forward)), far = glm::dot(forward, farthest(forward));

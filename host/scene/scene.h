@@ -156,6 +156,7 @@ struct MeshInstance {
     dmat4 to_world{
         1.0};  ///< invertible; a negative determinant mirrors (the front stays the front, as glTF says)
     bool is_drawn_strokes = false;  ///< ribbons that draw_strokes() made
+    bool is_ground = false;         ///< what stand_on_ground() added: no part of what is framed
 };
 
 /// KHR_lights_punctual, placed. colour includes intensity: candela (point, spot) or lux (directional).

@@ -50,6 +50,12 @@ View choose_view(const RenderRequest& options, const Scene& scene, const SceneCa
     if (options.look_at) {
         const auto& n = *options.look_at;
         view = look_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, asked_yfov, aspect);
+    } else if (options.orbit) {
+        const auto [azimuth, elevation, zoom] = *options.orbit;
+        const double a = azimuth * pi / 180, e = elevation * pi / 180;
+        const dvec3 towards_eye(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+        view = frame(scene, asked_yfov, aspect, towards_eye);
+        set_yfov(view, 2 * std::atan(view.extent.y / zoom), aspect);
     } else if (camera) {
         view = view_of(*camera, aspect);
         const double middle = glm::dot(bounds.centre() - view.eye, view.forward);

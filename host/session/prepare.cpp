@@ -58,6 +58,28 @@ void apply_glass(Scene& scene, const std::string& text) {
                                      material_names(scene) + ".");
 }
 
+namespace {
+
+/// --look and --ground, or what a scene gets that brings no light.
+void light_as_asked(const RenderRequest& o, Scene& scene) {
+    const bool dark = !has_light(scene);
+    if (o.look && scene.environment)
+        throw Error(Exit::usage,
+                    std::string("--look ") + name_of(*o.look) +
+                        ": the scene brings an environment of its own, and there is one at a time.");
+    if (o.look || dark) light(scene, o.look.value_or(Look::studio));
+    if (dark && !o.look)
+        inform(
+            "The scene has no light: it stands in a soft studio (--look sky or white, or --env FILE, light "
+            "it "
+            "otherwise).");
+    if (!o.ground.value_or(dark && scene.cameras.empty() && !o.transparent)) return;
+    stand_on_ground(scene);
+    validate(scene);
+}
+
+}  // namespace
+
 Scene load_scene(const RenderRequest& o, GltfReport* told) {
     Scene scene;
     if (o.scene_path.empty()) {
@@ -90,15 +112,12 @@ Scene load_scene(const RenderRequest& o, GltfReport* told) {
         draw_strokes(scene, settings.view, settings.height, o.point_size);
         validate(scene);
     }
-    if (!has_light(scene)) {
-        scene.sky = vec3(1.0f);
-        inform("The scene has no light: it gets a plain white sky (--env FILE lights it with a panorama).");
-    }
+    light_as_asked(o, scene);
     return scene;
 }
 
 RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
-    const SceneCamera* camera = o.look_at ? nullptr : choose_camera(scene, o.camera);
+    const SceneCamera* camera = o.look_at || o.orbit ? nullptr : choose_camera(scene, o.camera);
     const uvec2 size = choose_size(o, camera);
     RenderSettings settings;
     settings.width = size.x, settings.height = size.y;

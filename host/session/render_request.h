@@ -9,6 +9,7 @@
 #include "bvh/bvh.h"
 #include "pack/settings.h"
 #include "render/schedule.h"
+#include "scene/look.h"
 #include "session/output.h"
 #include "session/reconstruct_request.h"
 #include "trace/path_driver.h"
@@ -58,6 +59,8 @@ struct RenderRequest {
     std::optional<unsigned> max_texture;  ///< texels on the longer side; 0: any; none: what fits
     std::string camera;
     std::optional<std::array<double, 6>> look_at;
+    /// Degrees from the front to the right and upwards, and how much larger than framed.
+    std::optional<std::array<double, 3>> orbit;
     std::optional<double> fov;  ///< vertical, degrees
     std::optional<double> aperture, focus;
 
@@ -69,7 +72,9 @@ struct RenderRequest {
     double point_size = 1.5;         ///< pixels: width of points and lines
     std::vector<std::string> glass;  ///< MATERIAL=NAME
     std::string env_path;
-    double env_rotate = 0;  ///< degrees
+    std::optional<Look> look;    ///< none: studio where the scene has no light
+    std::optional<bool> ground;  ///< none: below a scene that has neither light nor camera of its own
+    double env_rotate = 0;       ///< degrees
     double env_strength = 1;
     bool transparent = false;
     OutputStyle style;  ///< exposure, tone map, background colour, half; complete() adds the reconstruction
