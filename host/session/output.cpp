@@ -163,10 +163,8 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
     }
 }
 
-}  // namespace
-
-void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
-                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+/// The film and the device must live as long.
+Source source_of(Device& device, const Film& film, const OutputStyle& style) {
     Source source;
     source.window.width = film.width, source.window.height = film.height;
     source.window.x = film.x, source.window.y = film.y;
@@ -175,8 +173,30 @@ void write_outputs(const std::vector<std::string>& paths, Device& device, const 
     source.linear = [&] { return linear_of(device, film, style); };
     source.display = [&] { return display_of(device, film, style); };
     source.linear_is_display = style.reconstruction.display_linear();
+    return source;
+}
+
+}  // namespace
+
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+    Source source = source_of(device, film, style);
     source.layers = std::move(layers);
     write_all(paths, std::move(source), style, metadata);
+}
+
+std::vector<std::uint8_t> encode_output(const std::string& extension, Device& device, const Film& film,
+                                        const OutputStyle& style, const Metadata& metadata) {
+    const Source source = source_of(device, film, style);
+    if (!is_linear_format(extension)) {
+        EncodedPicture picture = encoded(source, style);
+        picture.metadata = metadata;
+        return encode_picture(extension, picture);
+    }
+    Picture picture = linear(source);
+    picture.metadata = metadata;
+    if (source.linear_is_display) picture.metadata["triad:values"] = "display-linear";
+    return extension == ".hdr" ? encode_hdr(picture) : encode_exr(picture, style.half);
 }
 
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
