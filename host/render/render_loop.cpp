@@ -250,7 +250,7 @@ void RenderLoop::keep_when_due() {
     s_.store.set_ranges(ranges_before_);
     const double took = seconds() - began;
     double interval = goal_.keep.seconds;
-    if (!goal_.keep.exactly && took > share_of_writes * interval) {
+    if (!goal_.keep.exactly && !goal_.keep.wanted && took > share_of_writes * interval) {
         interval = took / share_of_writes;
         if (!told_of_slow_writes_)
             inform(format("Writing the film takes %.1f s: from now on it is written every %.0f s.", took,

@@ -93,7 +93,7 @@ void ViewLoop::move_to(const OrbitCamera& camera) {
     settings.view = camera.view;
     check_limits(settings, scene_->scene());
     camera_ = camera;
-    facts_.view = camera_.view, facts_.fov = camera_.fov;
+    facts_.view = camera_.view, facts_.fov = camera_.fov, facts_.moved = camera_.is_moved;
     restart();
 }
 

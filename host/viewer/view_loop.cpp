@@ -14,7 +14,7 @@ namespace {
 
 /// That the first picture after a move may take to render: the rest of .3 s is for stopping what runs, and
 /// for showing it.
-constexpr double preview_seconds = 0.1;
+constexpr double preview_seconds = 0.08;
 constexpr unsigned largest_divisor = 16;
 constexpr double idle_seconds = 0.5;
 

@@ -1,7 +1,7 @@
 /// What a ViewLoop shows and tells the page.
 #include <algorithm>
+#include <charconv>
 #include <exception>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -13,7 +13,11 @@ namespace {
 
 constexpr double least_interval = 0.25, most_interval = 3, share_of_age = 0.1, times_its_cost = 8;
 
-std::string number(double x) { return format("%.17g", x); }
+/// The shortest that is read as the same.
+std::string number(double x) {
+    char text[64];
+    return {text, std::to_chars(text, text + sizeof text, x).ptr};
+}
 
 std::string text_of(const std::vector<std::uint8_t>& bytes) { return {bytes.begin(), bytes.end()}; }
 

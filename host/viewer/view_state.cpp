@@ -60,6 +60,7 @@ std::string json_of(const ViewFacts& f) {
                         {"phase", f.phase},
                         {"message", f.message},
                         {"camera", f.camera},
+                        {"moved", f.moved},
                         {"scale", f.scale},
                         {"exposure", f.exposure},
                         {"variant", f.variant},

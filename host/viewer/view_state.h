@@ -39,7 +39,7 @@ struct ViewFacts {
     int camera = -1;
     double scale = 1, exposure = 0;
     std::string variant, panel, tone_map, method;
-    bool subpixels = false, paused = false;
+    bool subpixels = true, paused = false, moved = false;
     std::array<unsigned, 4> region{};
     View view;
     double fov = 0;

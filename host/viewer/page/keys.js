@@ -23,7 +23,7 @@ function isTaken(event) {
   const tag = event.target.tagName;
   if (event.ctrlKey || event.metaKey || (event.altKey && !arrows[event.key])) return true;
   if (document.querySelector("dialog[open]")) return event.key !== "?";
-  if (tag === "SELECT") return event.key !== "Escape" && event.key !== "?";
+  if (tag === "SELECT") return event.key in arrows || event.key === "Home" || event.key === " ";
   if (tag === "INPUT" && event.target.type === "range") return event.key in arrows || event.key === "Home";
   return event.key === " " && ["BUTTON", "A", "INPUT", "SUMMARY"].includes(tag);
 }

@@ -9,6 +9,7 @@ export class Picture {
     Object.assign(this, { stage, change, magnifier, whenChosen });
     this.canvas = stage.querySelector("#picture");
     this.rubber = stage.querySelector("#rubber");
+    this.bounds = stage.querySelector("#bounds"); // of the region
     this.choosing = false;   // a region
     this.shown = { frame: 0, region: 0 };
     this.wanted = { frame: 0, region: 0 };
@@ -25,6 +26,9 @@ export class Picture {
   /// Fetches what is newer than what is shown, one at a time.
   async follow(state) {
     this.wanted = { frame: state.frame, region: state.region_frame };
+    this.region = state.region;
+    this.bounds.hidden = state.region[2] === 0;
+    this.frame(this.bounds, state.region);
     if (this.fetching) return;
     this.fetching = true;
     try {
@@ -65,6 +69,7 @@ export class Picture {
     this.left = (clientWidth - width * this.scale) / 2;
     this.top = (clientHeight - height * this.scale) / 2;
     this.canvas.style.transform = `translate(${this.left}px, ${this.top}px) scale(${this.scale})`;
+    if (this.region) this.frame(this.bounds, this.region);
     this.magnifier.place(this);
   }
 
@@ -83,7 +88,7 @@ export class Picture {
 
   down(event) {
     if (event.target.closest("button, a")) return;
-    this.stage.focus({ preventScroll: true });
+    document.activeElement?.blur(); // keys are the picture's again
     this.stage.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
     this.start = this.at(event);

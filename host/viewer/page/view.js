@@ -35,6 +35,10 @@ function time(seconds) {
   return seconds >= 1 ? `${seconds.toFixed(1)} s` : `${(1000 * seconds).toFixed(seconds < 0.01 ? 1 : 0)} ms`;
 }
 
+function short(x) {
+  return x >= 0.001 ? String(Number(x.toPrecision(2))) : x.toExponential(1);
+}
+
 function showRegion() {
   const has = state !== null && state.region[2] > 0;
   $("region").setAttribute("aria-pressed", String(has || picture.choosing));
@@ -46,9 +50,9 @@ function showNumbers() {
   const spp = samples >= 10 ? Math.round(samples) : Number(samples.toFixed(1));
   const known = relmse !== null;
   $("numbers").textContent =
-    samples > 0 ? `${spp} spp · ${seconds.toFixed(1)} s${known ? ` · relMSE ${relmse.toPrecision(2)}` : ""}` : "";
+    samples > 0 ? `${spp} spp · ${seconds.toFixed(1)} s${known ? ` · relMSE ${short(relmse)}` : ""}` : "";
   $("error-words").textContent =
-    known ? `relMSE ${relmse.toPrecision(3)}, estimated from two halves of the samples` : "No estimate yet";
+    known ? `relMSE ${short(relmse)}, estimated from two halves of the samples` : "No estimate yet";
   drawChart($("chart"), points);
 }
 
@@ -75,14 +79,15 @@ function showPhase() {
 
 function showFacts() {
   const facts = [state.device, state.integrator];
-  if (state.method) facts.push(`Reconstruction: ${state.method}`);
+  if (state.method || state.panel) facts.push(`Reconstruction: ${state.method || "whole pixels"}`);
   if (state.move_s !== null) facts.push(`First picture of the last move after ${time(state.move_s)}`);
   facts.push(`Trees built ${state.packings === 1 ? "once" : `${state.packings} times`}`);
   $("device").textContent = facts.filter((text) => text).join(". ") + ".";
 }
 
 function showChoices() {
-  fill($("camera"), [[-1, "As it began"], ...state.cameras.map((name, i) => [i, name || `Camera ${i}`])], state.camera);
+  const cameras = [[-1, "As it began"], ...state.cameras.map((name, i) => [i, name || `Camera ${i}`])];
+  fill($("camera"), state.moved ? [...cameras, ["", "Led by hand"]] : cameras, state.moved ? "" : state.camera);
   fill($("variant"), [["", "The file's own"], ...state.variants.map((name) => [name, name])], state.variant);
   fill($("panel"), [["", "None"], ...state.panels.map((name) => [name, name])], state.panel);
   $("variants").hidden = state.variants.length === 0;
@@ -128,7 +133,8 @@ $("exposure").addEventListener("input", () => {
 $("exposure").addEventListener("change", () => { exposing = false; });
 for (const id of ["tonemap", "variant", "panel"])
   $(id).addEventListener("change", () => change({ [id]: $(id).value }));
-for (const id of ["camera", "scale"]) $(id).addEventListener("change", () => change({ [id]: Number($(id).value) }));
+for (const id of ["camera", "scale"])
+  $(id).addEventListener("change", () => { if ($(id).value !== "") change({ [id]: Number($(id).value) }); });
 $("panel").addEventListener("change", () => magnify($("panel").value !== "" || magnifier.on));
 $("subpixels").addEventListener("change", () => change({ subpixels: $("subpixels").checked }));
 $("zoom").addEventListener("change", () => { magnifier.zoom = Number($("zoom").value); magnifier.look(); });
@@ -145,7 +151,7 @@ async function copy() {
   try {
     await navigator.clipboard.writeText(state.command);
     $("copy").textContent = "Copied";
-    setTimeout(() => { $("copy").textContent = "Copy the command"; }, 1500);
+    setTimeout(() => { $("copy").textContent = "Command"; }, 1500);
   } catch {
     getSelection().selectAllChildren($("command")); // for who copies by hand
   }
@@ -153,7 +159,7 @@ async function copy() {
 
 /// The next of a list of options; sent as if it had been chosen.
 function next(select) {
-  if (select.options.length < 2) return;
+  if (select.options.length < 2) return; // nothing to choose
   select.selectedIndex = (select.selectedIndex + 1) % select.options.length;
   select.dispatchEvent(new Event("change"));
 }
@@ -167,7 +173,7 @@ const actions = {
     else if (state.region[2] > 0) change({ region: [0, 0, 0, 0] });
   },
   exposure: (step) => change({ exposure: Math.max(-64, Math.min(64, state.exposure + step)) }),
-  camera: () => next($("camera")),
+  camera: () => change({ camera: state.camera + 1 < state.cameras.length ? state.camera + 1 : -1 }),
   variant: () => next($("variant")),
   tonemap: () => next($("tonemap")),
   panel: () => next($("panel")),
