@@ -17,6 +17,8 @@ namespace {
 constexpr double preview_seconds = 0.08;
 constexpr unsigned largest_divisor = 16;
 constexpr double idle_seconds = 0.5;
+/// A film of so many bytes takes a while to be made, during which a move would wait: first the hand rests.
+constexpr double large_film = 64e6, rest_seconds = 0.3;
 
 }  // namespace
 
@@ -174,7 +176,13 @@ RenderGoal ViewLoop::goal_of(Growing& picture) {
 /// Until it is complete, or the page asks for something else.
 void ViewLoop::grow() {
     Growing& picture = current();
-    if (!picture.renderer) picture.renderer = scene_->renderer(settings_of(1));
+    if (!picture.renderer) {
+        const RenderSettings settings = settings_of(1);
+        const double pixels = double(settings.width) * settings.height;
+        if (32 * pixels * settings.bins_x * settings.bins_y > large_film) exchange_.wait(rest_seconds);
+        if (exchange_.urgency() >= Urgency::pause) return;
+        picture.renderer = scene_->renderer(settings);
+    }
     picture.film.reset();
     facts_.packings = scene_->packings();
     facts_.integrator = picture.renderer->integrator();
@@ -182,7 +190,7 @@ void ViewLoop::grow() {
     facts_.wanted_samples = request_.error || request_.time ? 0 : double(goal.samples.end);
     facts_.phase = "render";
     starting_ = false;
-    next_show_ = Clock::now() + std::chrono::milliseconds(250);
+    next_show_ = show_time(show_seconds_);
     const RenderResult result = picture.renderer->render_until(goal, [&](const Progress& progress) {
         picture.course.add(progress);
         facts_.course = picture.course;

@@ -54,6 +54,7 @@ class ViewLoop {
     unsigned first_divisor_ = 4;   ///< of the first picture after a move: coarse enough to be there at once
     unsigned divisor_ = 4;         ///< of the next preview; 1: none is needed
     double pace_ = 0;              ///< samples per second; 0: not known
+    double show_seconds_ = 0;      ///< that showing a picture which is no preview took
     bool restyle_ = false, starting_ = true;
     Clock::time_point next_show_{}, began_{};
 
@@ -80,6 +81,7 @@ class ViewLoop {
     // view_show.cpp: what it is shown
     enum class Shown { preview, whole, region };
     void show(const Film& film, Shown what);
+    Clock::time_point show_time(double cost) const;
     void show_around();
     void show_again();
     void serve(const Film& film);

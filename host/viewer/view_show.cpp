@@ -45,10 +45,17 @@ void ViewLoop::show(const Film& film, Shown what) {
     if (const auto seconds = exchange_.seconds_since_move()) facts_.move_seconds = seconds;
     note_kernels();
     tell();
-    const std::chrono::duration<double> cost = Clock::now() - start, age = Clock::now() - began_;
+    const std::chrono::duration<double> cost = Clock::now() - start;
+    if (!is_preview) show_seconds_ = cost.count();
+    next_show_ = show_time(cost.count());
+}
+
+/// Of the next picture: later ones change less, and none takes much of the time.
+ViewLoop::Clock::time_point ViewLoop::show_time(double cost) const {
+    const std::chrono::duration<double> age = Clock::now() - began_;
     const double interval = std::max(std::clamp(share_of_age * age.count(), least_interval, most_interval),
-                                     times_its_cost * cost.count());
-    next_show_ = Clock::now() + std::chrono::microseconds(std::int64_t(1e6 * interval));
+                                     times_its_cost * cost);
+    return Clock::now() + std::chrono::microseconds(std::int64_t(1e6 * interval));
 }
 
 /// What is around the region, as it was last rendered.

@@ -25,10 +25,14 @@ function isTaken(event) {
   if (document.querySelector("dialog[open]")) return event.key !== "?";
   if (tag === "SELECT") return event.key in arrows || event.key === "Home" || event.key === " ";
   if (tag === "INPUT" && event.target.type === "range") return event.key in arrows || event.key === "Home";
-  return event.key === " " && ["BUTTON", "A", "INPUT", "SUMMARY"].includes(tag);
+  return event.key === " " && ["BUTTON", "INPUT"].includes(tag);
 }
 
 export function listenToKeys(actions, isReady) {
+  // What was clicked by a pointer does not keep the keys.
+  document.addEventListener("click", (event) => {
+    if (event.detail > 0) event.target.closest("button, a, input")?.blur();
+  });
   document.addEventListener("keydown", (event) => {
     if (!isReady() || isTaken(event)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;

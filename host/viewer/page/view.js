@@ -95,8 +95,8 @@ function showChoices() {
   $("subpixels").disabled = state.panel === "";
   $("tonemap").value = state.tonemap;
   $("scale").value = String(state.scale);
-  if (!exposing) $("exposure").value = String(state.exposure);
-  $("exposure-value").textContent = `${state.exposure > 0 ? "+" : ""}${state.exposure} EV`;
+  if (state.exposure === exposure) exposure = null;
+  if (exposure === null) showExposure(state.exposure);
   $("pause").textContent = state.paused ? "Go on" : "Pause";
   $("pause").setAttribute("aria-pressed", String(state.paused));
 }
@@ -125,12 +125,17 @@ whenItFails((sentence, isLost) => {
   if (isLost) $("status").textContent = "Not connected";
 });
 
-let exposing = false;
-$("exposure").addEventListener("input", () => {
-  exposing = true;
-  change({ exposure: Number($("exposure").value) });
-});
-$("exposure").addEventListener("change", () => { exposing = false; });
+let exposure = null; // on its way to the server
+function showExposure(value) {
+  $("exposure").value = String(value);
+  $("exposure-value").textContent = `${value > 0 ? "+" : ""}${value} EV`;
+}
+function expose(value) {
+  exposure = Math.max(-64, Math.min(64, value));
+  showExposure(exposure);
+  change({ exposure });
+}
+$("exposure").addEventListener("input", () => expose(Number($("exposure").value)));
 for (const id of ["tonemap", "variant", "panel"])
   $(id).addEventListener("change", () => change({ [id]: $(id).value }));
 for (const id of ["camera", "scale"])
@@ -172,7 +177,7 @@ const actions = {
     if (picture.choosing) picture.choose(false);
     else if (state.region[2] > 0) change({ region: [0, 0, 0, 0] });
   },
-  exposure: (step) => change({ exposure: Math.max(-64, Math.min(64, state.exposure + step)) }),
+  exposure: (step) => expose((exposure ?? state.exposure) + step),
   camera: () => change({ camera: state.camera + 1 < state.cameras.length ? state.camera + 1 : -1 }),
   variant: () => next($("variant")),
   tonemap: () => next($("tonemap")),
