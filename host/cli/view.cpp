@@ -12,9 +12,19 @@ namespace triad {
 namespace {
 
 /// What a view says anew of the picture that it shows, and what is of the view alone.
-const std::vector<std::string> of_view{"--look-at", "--camera",     "--fov",     "--size",  "--crop",
-                                       "--variant", "--exposure",   "--tonemap", "--panel", "--bins",
-                                       "--port",    "--no-browser", "--verbose", "--quiet"};
+const std::vector<std::string> of_view{"--look-at", "--camera",     "--fov",      "--size",
+                                       "--crop",    "--variant",    "--exposure", "--tonemap",
+                                       "--port",    "--no-browser", "--verbose",  "--quiet"};
+/// How samples become pixels.
+const std::vector<std::string> of_display{"--panel", "--bins",     "--reconstruct", "--filter",
+                                          "--ppd",   "--distance", "--pitch",       "--refine"};
+
+std::string command_to_copy(const CLI::App& command, const std::vector<std::string>& options,
+                            bool keeps_display) {
+    std::vector<std::string> without = of_view;
+    if (!keeps_display) without.insert(without.end(), of_display.begin(), of_display.end());
+    return command_of(command, without, options);
+}
 
 }  // namespace
 
@@ -35,8 +45,8 @@ void add_view(CLI::App& app, Exit& exit) {
     command->callback([o, no_browser, command, &exit] {
         o->open_browser = !*no_browser;
         o->render.words = words_of_picture(*command);
-        o->command = [command](const std::vector<std::string>& options) {
-            return command_of(*command, of_view, options);
+        o->command = [command](const std::vector<std::string>& options, bool keeps_display) {
+            return command_to_copy(*command, options, keeps_display);
         };
         exit = view(*o);
     });

@@ -14,9 +14,11 @@ std::chrono::duration<double> duration(double seconds) { return std::chrono::dur
 
 bool Exchange::post(const ViewChange& change) {
     const std::lock_guard lock(mutex_);
-    if (closed_ || changes_.size() >= most_changes) return false;
-    changes_.push_back(change);
     const Urgency urgency = urgency_of(change);
+    if (closed_) return false;
+    if (urgency == Urgency::none) return true;
+    if (changes_.size() >= most_changes) return false;
+    changes_.push_back(change);
     urgency_ = std::max(urgency_, urgency);
     if (urgency == Urgency::picture && !posted_) posted_ = Clock::now();
     changed_.notify_all();

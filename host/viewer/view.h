@@ -14,7 +14,7 @@ struct ViewRequest {
     unsigned port = 0;         ///< 0: any that is free
     bool open_browser = true;  ///< where there is a desktop to open one on
     /// ViewLoop::Command.
-    std::function<std::string(const std::vector<std::string>& options)> command;
+    std::function<std::string(const std::vector<std::string>& options, bool keeps_display)> command;
 };
 
 /// Serves the page and renders for it until a signal asks to end. The address is printed on standard output.

@@ -41,6 +41,9 @@ ViewLoop::ViewLoop(RenderRequest request, Command command, Exchange& exchange)
 }
 
 void ViewLoop::run() {
+    const struct Unwatch {
+        ~Unwatch() { watch_phases({}); }
+    } unwatch;
     watch_phases([this](const char* phase) {
         if (!starting_) return;
         facts_.phase = phase;
@@ -62,7 +65,6 @@ void ViewLoop::run() {
         else
             exchange_.wait(idle_seconds);
     }
-    watch_phases({});
 }
 
 void ViewLoop::open() {

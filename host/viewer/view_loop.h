@@ -19,8 +19,9 @@ namespace triad {
 
 class ViewLoop {
   public:
-    /// The command line that renders a picture with these options instead of the request's; to be copied.
-    using Command = std::function<std::string(const std::vector<std::string>& options)>;
+    /// The command line that renders a picture with these options instead of the request's; to be copied. How
+    /// samples become pixels stays as it was asked for where `keeps_display`.
+    using Command = std::function<std::string(const std::vector<std::string>& options, bool keeps_display)>;
 
     /// `request`: complete()d. The exchange must live as long.
     ViewLoop(RenderRequest request, Command command, Exchange& exchange);
@@ -88,6 +89,7 @@ class ViewLoop {
     void serve_or_refuse();
     void note_kernels();
     void tell();
+    bool keeps_display() const;
     std::vector<std::string> options() const;
 };
 

@@ -6,8 +6,12 @@
 #include <atomic>
 #include <charconv>
 #include <condition_variable>
+#include <exception>
+#include <functional>
 #include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -26,25 +30,29 @@ constexpr int most_followers = 6;
 constexpr double ping_seconds = 5, file_seconds = 60;
 
 /// A pool that takes no more work than it has threads: accepting connections waits.
-class BoundedPool : public httplib::ThreadPool {
+class BoundedPool : public httplib::TaskQueue {
   public:
-    explicit BoundedPool(std::size_t threads) : ThreadPool(threads), free_(threads) {}
+    explicit BoundedPool(std::size_t threads) : pool_(threads), free_(threads) {}
 
-    void enqueue(std::function<void()> work) override {
+    /// Versions of the library differ in what it returns.
+    using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+    Enqueued enqueue(std::function<void()> work) override {
         {
             std::unique_lock lock(mutex_);
             freed_.wait(lock, [this] { return free_ > 0; });
             --free_;
         }
-        ThreadPool::enqueue([this, work = std::move(work)] {
+        return pool_.enqueue([this, work = std::move(work)] {
             work();
             const std::lock_guard lock(mutex_);
             ++free_;
             freed_.notify_one();
         });
     }
+    void shutdown() override { pool_.shutdown(); }
 
   private:
+    httplib::ThreadPool pool_;
     std::mutex mutex_;
     std::condition_variable freed_;
     std::size_t free_;

@@ -110,9 +110,15 @@ void ViewLoop::note_kernels() {
 }
 
 void ViewLoop::tell() {
-    facts_.command =
-        scene_ && !(camera_.is_moved && camera_.view.orthographic) ? command_(options()) : std::string();
+    facts_.command = scene_ && !(camera_.is_moved && camera_.view.orthographic)
+                         ? command_(options(), keeps_display())
+                         : std::string();
     exchange_.tell(json_of(facts_));
+}
+
+/// Nothing was chosen of panels, or what was asked for at first.
+bool ViewLoop::keeps_display() const {
+    return facts_.panel == first_.reconstruct.panel && (facts_.panel.empty() || facts_.subpixels);
 }
 
 /// That say the picture as it is now.
@@ -143,8 +149,11 @@ std::vector<std::string> ViewLoop::options() const {
     if (!request_.variant.empty()) add("variant", request_.variant);
     if (request_.style.exposure != 0) add("exposure", format("%g", request_.style.exposure));
     if (request_.style.tone_map != OutputStyle().tone_map) add("tonemap", request_.style.tone_map);
-    if (!facts_.panel.empty() && facts_.subpixels) add("panel", facts_.panel);
-    if (!facts_.panel.empty() && !facts_.subpixels) add("bins", "3x3");
+    if (keeps_display() || facts_.panel.empty()) return words;
+    if (facts_.subpixels)
+        add("panel", facts_.panel);
+    else
+        add("bins", "3x3");
     return words;
 }
 

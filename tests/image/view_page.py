@@ -111,6 +111,7 @@ def leads_the_camera(view):
     check(near > 1, "another camera shows the same")
     view.after(lambda: page.key("c"))
     page.until("document.querySelector('#camera').value === '-1'")
+    check("Trees built once" in view.text("#device"), "moves built trees again")
 
 
 def changes_tones(view):
