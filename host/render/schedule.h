@@ -19,8 +19,8 @@ struct KeptFilm {
     double seconds = 60;
     bool exactly = false;
     std::vector<std::string> words;  ///< FilmProgress::words
-    /// Asked before every launch, by any thread but one at a time: whether to hand out the film now. Where it
-    /// is given, nothing is handed out by `seconds`.
+    /// Asked before every launch, by any thread but one at a time: whether to hand out the film now; true
+    /// until it was. Where it is given, nothing is handed out by `seconds`.
     std::function<bool()> wanted;
 };
 

@@ -46,11 +46,12 @@ TEST(Abandon, who_looks_on_is_shown_the_film_when_it_is_wanted) {
     unsigned asked = 0, shown = 0;
     std::uint64_t samples = 0;
     RenderGoal goal{.samples = all, .follow = false};
-    goal.keep.wanted = [&] { return ++asked % 2 == 0; };
+    bool wanted = false;
+    goal.keep.wanted = [&] { return wanted |= ++asked % 3 == 0; };
     goal.keep.write = [&](const Film& film) {
         const std::uint64_t total = film.sample_numbers().total;
         EXPECT_GE(total, samples);
-        samples = total, ++shown;
+        samples = total, ++shown, wanted = false;
     };
     renderer.render_until(goal, go_on);
     EXPECT_GT(shown, 0u);
