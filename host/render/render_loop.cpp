@@ -174,11 +174,6 @@ std::uint32_t RenderLoop::least() const {
     return n;
 }
 
-bool RenderLoop::is_abandoned() {
-    if (!abandoned_ && goal_.abandon && goal_.abandon()) abandoned_ = interrupted_ = true;
-    return abandoned_;
-}
-
 /// The film says what every pixel has, while estimates are made of it or it is kept.
 void RenderLoop::name_ranges() {
     s_.store.set_ranges(with_before({goal_.samples.begin, goal_.samples.begin + least()}));

@@ -82,7 +82,6 @@ class RenderLoop {
         if (!goal_.keep.write) return false;
         return goal_.keep.wanted ? goal_.keep.wanted() : seconds() >= next_kept_;
     }
-    bool is_abandoned();
     void keep_when_due();
     void report();
     void remember();
@@ -90,6 +89,7 @@ class RenderLoop {
     Progress progress() const;
 
     // render_passes.cpp: what the devices do
+    bool is_abandoned();
     bool pass(const SetSamples& wanted, unsigned run);
     TileWorks work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const;
     bool pass_with_photons(TileWorks work, bool may_be_cut);

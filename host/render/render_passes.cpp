@@ -202,6 +202,11 @@ std::size_t RenderLoop::scattered(std::size_t i) const {
     return i * step % tiles_;
 }
 
+bool RenderLoop::is_abandoned() {
+    if (!abandoned_ && goal_.abandon && goal_.abandon()) abandoned_ = interrupted_ = true;
+    return abandoned_;
+}
+
 /// Samples that were taken.
 void RenderLoop::count(const TileWorks& work, WorkPiece piece) {
     for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) {
