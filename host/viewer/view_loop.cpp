@@ -199,11 +199,18 @@ void ViewLoop::grow() {
         tell();
         return exchange_.urgency() < Urgency::pause;
     });
-    picture.course.seconds_before += result.seconds;
     picture.complete = result.stop != Stop::interrupt;
     if (exchange_.urgency() == Urgency::picture) return;
     picture.film = picture.renderer->film();
-    if (picture.complete) facts_.phase = "done";
+    if (picture.complete) {  // also where it ended before the first estimate
+        Progress end;
+        end.seconds = result.seconds, end.samples = picture.film->sample_numbers().mean;
+        end.relmse = estimated_relmse(*picture.film);
+        picture.course.add(end);
+        facts_.course = picture.course;
+        facts_.phase = "done";
+    }
+    picture.course.seconds_before += result.seconds;
     show(*picture.film, region_[2] > 0 ? Shown::region : Shown::whole);
 }
 
