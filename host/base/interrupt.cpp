@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace triad {
 namespace {
@@ -21,6 +22,7 @@ const std::vector<int> ignored = [] {
 }();
 
 volatile std::sig_atomic_t signals = 0;
+const char* volatile said_at_first = "";
 
 extern "C" void on_signal(int number) {
     // A closing terminal may send its signal more than once, and an exceeded limit sends one every second.
@@ -28,14 +30,15 @@ extern "C" void on_signal(int number) {
         ::_exit(128 + number);  // what a shell expects of a process that a signal ended
     if (signals) return;
     signals = 1;
-    const char text[] = "\ntriad: stopping after this pass and saving; once more to quit at once\n";
-    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, sizeof text - 1);
+    const char* const text = said_at_first;
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
+InterruptGuard::InterruptGuard(const char* words) {
     signals = 0;
+    said_at_first = words;
     struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;

@@ -10,7 +10,9 @@ namespace triad {
 /// while it lives; those that were ignored before (nohup) stay so.
 class InterruptGuard {
   public:
-    InterruptGuard();
+    /// `words`: what the first signal prints, a literal.
+    explicit InterruptGuard(
+        const char* words = "\ntriad: stopping after this pass and saving; once more to quit at once\n");
     ~InterruptGuard();
     InterruptGuard(const InterruptGuard&) = delete;
     InterruptGuard& operator=(const InterruptGuard&) = delete;

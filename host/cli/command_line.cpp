@@ -96,6 +96,7 @@ void add_common(CLI::App& command) {
 
 void add_commands(CLI::App& app, Exit& exit) {
     add_render(app, exit);
+    add_view(app, exit);
     add_info(app, exit);
     add_merge(app, exit);
     add_resolve(app, exit);

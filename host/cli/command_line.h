@@ -28,6 +28,7 @@ void add_panel(CLI::App& app, Exit& exit);
 void add_bench(CLI::App& app, Exit& exit);
 void add_profile(CLI::App& app, Exit& exit);
 void add_capture(CLI::App& app, Exit& exit);
+void add_view(CLI::App& app, Exit& exit);
 
 /// --format NAME
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);

@@ -14,9 +14,10 @@ namespace {
 
 /// What the next run may do otherwise.
 const std::vector<std::string> of_this_run{
-    "--help",   "--output",  "--film",   "--resume", "--checkpoint", "--json",      "--progress",
-    "--device", "--threads", "--format", "--driver", "--force",      "--kernels",   "--frames",
-    "--fps",    "--aov",     "--strict", "--quiet",  "--verbose",    "--max-memory"};
+    "--help",     "--output",     "--film",    "--resume",    "--checkpoint", "--json",
+    "--progress", "--device",     "--threads", "--format",    "--driver",     "--force",
+    "--kernels",  "--frames",     "--fps",     "--aov",       "--strict",     "--quiet",
+    "--verbose",  "--max-memory", "--port",    "--no-browser"};
 /// Of every command: not among those that declare() makes.
 const std::vector<std::string> common{"--help", "--quiet", "--verbose", "--max-memory"};
 /// What ends a render: a film may go on to another.

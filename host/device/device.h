@@ -281,6 +281,8 @@ class Device {
     const std::vector<Compilation>& compilations() const;  ///< of build(), in order
     /// All that the queue did so far, in order; empty unless settings.profile. Waits for the queue.
     const std::vector<DeviceCommand>& commands();
+    /// Those of them that were not taken before, which are then forgotten: for who looks on for long.
+    std::vector<DeviceCommand> take_commands();
     /// Of every kernel that was made so far.
     std::vector<KernelFacts> kernels() const;
 

@@ -1,6 +1,7 @@
 // What the queue did and when, and what drivers tell of kernels.
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "device/opencl.h"
 
@@ -51,6 +52,11 @@ std::size_t fact_of(cl_kernel kernel, cl_device_id device, cl_kernel_work_group_
 const std::vector<DeviceCommand>& Device::commands() {
     if (state_->profile) state_->finish();
     return state_->ended;
+}
+
+std::vector<DeviceCommand> Device::take_commands() {
+    commands();
+    return std::exchange(state_->ended, {});
 }
 
 const std::vector<Compilation>& Device::compilations() const { return state_->compilations; }

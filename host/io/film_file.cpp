@@ -1,5 +1,6 @@
 /// Films as files, whole.
 #include <cstring>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
@@ -17,14 +18,26 @@ bool is_film(const std::filesystem::path& path) {
     return std::memcmp(start, film_magic, sizeof film_magic) == 0;
 }
 
-void save_film(const std::filesystem::path& path, const Film& film) {
+namespace {
+
+void write_film(const ByteSink& write, const Film& film) {
     // Blocks point into what they read or write; here nothing is changed.
     Film& readable = const_cast<Film&>(film);
-    write_file(path, [&](const ByteSink& write) {
-        write_header(write, film);
-        for (std::size_t i = 0; i < block_count(film); ++i) write_block(write, i, rows_of(readable, i));
-        if (film.progress) write_block(write, block_count(film), block_of(*readable.progress));
-    });
+    write_header(write, film);
+    for (std::size_t i = 0; i < block_count(film); ++i) write_block(write, i, rows_of(readable, i));
+    if (film.progress) write_block(write, block_count(film), block_of(*readable.progress));
+}
+
+}  // namespace
+
+void save_film(const std::filesystem::path& path, const Film& film) {
+    write_file(path, [&](const ByteSink& write) { write_film(write, film); });
+}
+
+std::string encode_film(const Film& film) {
+    std::string bytes;
+    write_film([&](std::string_view piece) { bytes += piece; }, film);
+    return bytes;
 }
 
 Film load_film_header(const std::filesystem::path& path) { return FilmReader(path).film(); }

@@ -98,6 +98,8 @@ Picture read_picture(const std::filesystem::path& path);
 
 /// Film files (docs/film.md): equal films give equal bytes. Written aside and renamed.
 void save_film(const std::filesystem::path& path, const Film& film);
+/// The same file as bytes.
+std::string encode_film(const Film& film);
 /// Throws Error(scene) for anything that save_film did not write: truncated, changed, of another version.
 Film load_film(const std::filesystem::path& path);
 /// The film without its arrays and those of its progress. Throws Error(scene).

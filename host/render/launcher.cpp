@@ -85,11 +85,12 @@ void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, con
     });
 }
 
-void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std::uint64_t first_sample) {
+void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std::uint64_t first_sample,
+                      const std::function<bool()>& stop) {
     std::vector<std::uint64_t> sizes;
     for (const dev::TileWork& w : work) sizes.push_back(samples_of(w));
     WorkShare share(std::move(sizes), {0});
-    while (!share.is_done()) {
+    while (!share.is_done() && !stop()) {
         share.set_pace(0, tracers_[i]->pace);  // which this thread alone changes
         launch(i, share.take(0, launch_seconds, tracers_[i]->most_tiles()), work, first_sample);
     }

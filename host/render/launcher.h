@@ -44,8 +44,10 @@ class Launcher {
     /// taken it has done, or it has failed.
     void run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders);
 
-    /// One launch of one tracer after the other until a whole list is done, as run() does it.
-    void run_on(std::size_t tracer, const std::vector<dev::TileWork>& work, std::uint64_t first_sample);
+    /// One launch of one tracer after the other until a whole list is done, as run() does it, or `stop`,
+    /// asked before each, says so.
+    void run_on(std::size_t tracer, const std::vector<dev::TileWork>& work, std::uint64_t first_sample,
+                const std::function<bool()>& stop);
 
     /// Calls work(tracer) for every tracer that has not failed, each in a thread of its own where there are
     /// several. One that throws an Error has failed, and is used no more; throws it when none is left.

@@ -96,7 +96,7 @@ RenderResult RenderLoop::run() {
         throw;
     }
     const double rendered = seconds(), processor = processor_seconds() - processor_start;
-    if (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise) estimate(false);
+    if (!abandoned_ && (!trend_.empty() || goal_.error > 0 || goal_.perceived_noise)) estimate(false);
     name_ranges();
     name_shares();
     remember();
@@ -155,7 +155,7 @@ void RenderLoop::reach(const SetSamples& wanted) {
         for (std::size_t i = 0; i < have_.size(); ++i) waiting += (wanted[i] > have_[i]) * pixels_[i];
         if (waiting == 0) return;
         const double fit = launcher_.pace() * launches_per_pass * launch_seconds / double(waiting);
-        if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run)))) return;
+        if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run))) || abandoned_) return;
         if (goal_.follow && seconds() >= next_estimate_) estimate(false);
         if (is_shared() && seconds() >= next_delivery_) gather();
         report();
@@ -234,7 +234,7 @@ FilmProgress RenderLoop::film_progress() const {
 
 /// Between two launches.
 void RenderLoop::keep_when_due() {
-    if (!is_keeping_due()) return;
+    if (abandoned_ || !is_keeping_due()) return;
     const double began = seconds();
     name_ranges();
     name_shares();
@@ -245,7 +245,7 @@ void RenderLoop::keep_when_due() {
     s_.store.set_ranges(ranges_before_);
     const double took = seconds() - began;
     double interval = goal_.keep.seconds;
-    if (!goal_.keep.exactly && took > share_of_writes * interval) {
+    if (!goal_.keep.exactly && !goal_.keep.wanted && took > share_of_writes * interval) {
         interval = took / share_of_writes;
         if (!told_of_slow_writes_)
             inform(format("Writing the film takes %.1f s: from now on it is written every %.0f s.", took,

@@ -50,6 +50,7 @@ class RenderLoop {
     double next_delivery_ = 0;
     bool has_looked_ = false;  ///< goal_.set_errors was asked
     bool interrupted_ = false;
+    bool abandoned_ = false;  ///< interrupted_ too
     /// Photons came with a sample of some tiles alone. Time may be left, where tiles took less than was
     /// foreseen; but photons of a further sample would be another one's in these tiles.
     bool cut_ = false;
@@ -77,7 +78,10 @@ class RenderLoop {
     void name_shares();
     std::vector<SampleRange> with_before(SampleRange range) const;
     FilmProgress film_progress() const;
-    bool is_keeping_due() const { return goal_.keep.write && seconds() >= next_kept_; }
+    bool is_keeping_due() const {
+        if (!goal_.keep.write) return false;
+        return goal_.keep.wanted ? goal_.keep.wanted() : seconds() >= next_kept_;
+    }
     void keep_when_due();
     void report();
     void remember();
@@ -85,6 +89,7 @@ class RenderLoop {
     Progress progress() const;
 
     // render_passes.cpp: what the devices do
+    bool is_abandoned();
     bool pass(const SetSamples& wanted, unsigned run);
     TileWorks work_towards(const SetSamples& wanted, unsigned run, bool may_be_cut) const;
     bool pass_with_photons(TileWorks work, bool may_be_cut);

@@ -95,7 +95,7 @@ void RenderLoop::redo_with_photons(const TileWorks& work, std::uint32_t sample) 
             recredit(work, tracer, {0, work.size()}, sample);
             trace_photons(tracer, goal_.samples.begin + work.front().first_sample[0] + sample,
                           goal_.photon_share);
-            launcher_.run_on(tracer, work, goal_.samples.begin + sample);
+            launcher_.run_on(tracer, work, goal_.samples.begin + sample, [] { return false; });
             choose_tiles(tracer, {});
         });
     }

@@ -43,25 +43,26 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
     give_work();
     WorkShare share = launcher_.share_of(work);
     const auto time_is_up = [&] { return may_be_cut && schedule_.time_is_up(samples(), seconds()); };
-    while (!share.is_done() && !time_is_up()) {
+    while (!share.is_done() && !time_is_up() && !is_abandoned()) {
         if (std::exchange(given, redone_) != redone_) give_work();
         bool has_launched = false;
         const double began = seconds();
-        launcher_.run(share, work,
-                      {.first_sample = goal_.samples.begin,
-                       .launch_seconds =
-                           [&] {
-                               return may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds()))
-                                                 : launch_seconds;
-                           },
-                       .stop = [&] { return has_launched && (is_keeping_due() || time_is_up()); },
-                       .taken =
-                           [&](std::size_t tracer, WorkPiece piece) {
-                               count(work, piece), credit(work, tracer, piece);
-                               for (std::size_t i = 0; i < piece.count && is_shared(); ++i)
-                                   undelivered_[tracer].add(work[piece.first + i]);
-                               has_launched = true;
-                           }});
+        launcher_.run(
+            share, work,
+            {.first_sample = goal_.samples.begin,
+             .launch_seconds =
+                 [&] {
+                     return may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds()))
+                                       : launch_seconds;
+                 },
+             .stop = [&] { return is_abandoned() || (has_launched && (is_keeping_due() || time_is_up())); },
+             .taken =
+                 [&](std::size_t tracer, WorkPiece piece) {
+                     count(work, piece), credit(work, tracer, piece);
+                     for (std::size_t i = 0; i < piece.count && is_shared(); ++i)
+                         undelivered_[tracer].add(work[piece.first + i]);
+                     has_launched = true;
+                 }});
         launching_ += seconds() - began;
         redo_lost();
         keep_when_due();
@@ -138,7 +139,7 @@ bool RenderLoop::pass_with_photons(TileWorks work, bool may_be_cut) {
                 {
                     const std::lock_guard lock(launcher_.mutex());
                     if (seconds() >= next_report_ && least() > 0) report();
-                    if (next == run || (may_be_cut && tracer != lead) || interrupted_ ||
+                    if (next == run || (may_be_cut && tracer != lead) || interrupted_ || is_abandoned() ||
                         (has_begun && is_keeping_due()))
                         return;
                     i = next++, has_begun = true;
@@ -147,7 +148,10 @@ bool RenderLoop::pass_with_photons(TileWorks work, bool may_be_cut) {
                     count(work, whole);
                 }
                 trace_photons(tracer, first + i, share);
-                launcher_.run_on(tracer, work, goal_.samples.begin + i);
+                launcher_.run_on(tracer, work, goal_.samples.begin + i, [&] {
+                    const std::lock_guard lock(launcher_.mutex());
+                    return is_abandoned();
+                });
             }
         });
         for (const std::size_t tracer : takers) credit(work, tracer, whole);
@@ -196,6 +200,11 @@ std::size_t RenderLoop::scattered(std::size_t i) const {
     std::size_t step = std::max<std::size_t>(1, std::size_t(double(tiles_) * 0.6180339887498949));
     while (std::gcd(step, tiles_) != 1) ++step;
     return i * step % tiles_;
+}
+
+bool RenderLoop::is_abandoned() {
+    if (!abandoned_ && goal_.abandon && goal_.abandon()) abandoned_ = interrupted_ = true;
+    return abandoned_;
 }
 
 /// Samples that were taken.

@@ -19,6 +19,9 @@ struct KeptFilm {
     double seconds = 60;
     bool exactly = false;
     std::vector<std::string> words;  ///< FilmProgress::words
+    /// Asked before every launch, by any thread but one at a time: whether to hand out the film now; true
+    /// until it was. Where it is given, nothing is handed out by `seconds`.
+    std::function<bool()> wanted;
 };
 
 /// What a render is to reach. Whichever comes first ends it.
@@ -36,6 +39,10 @@ struct RenderGoal {
     /// two, and at the end of every round; each set holds so many.
     std::shared_ptr<SetErrorSource> set_errors;
     KeptFilm keep;
+    /// Asked as KeptFilm::wanted is: true ends the render before the next launch, wherever its pass is. Where
+    /// photons come with every sample, the film then lacks a part of one, and is good for nothing; else it
+    /// may be gone on from. Empty: never.
+    std::function<bool()> abandon;
 };
 
 enum class Stop { samples, error, time, interrupt };

@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -163,26 +164,22 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
     }
 }
 
-}  // namespace
-
-namespace {
-
-/// `image` must outlive it.
-Source source_of(Device& device, const BinImage& image, bool alpha, const OutputStyle& style) {
-    const bool shown = image.encoded || style.reconstruction.display_linear();
-    const auto resolve = [&device, &image, alpha, style, shown](bool linear) {
+Source source_of(Device& device, const std::shared_ptr<const BinImage>& image, bool alpha,
+                 const OutputStyle& style) {
+    const bool shown = image->encoded || style.reconstruction.display_linear();
+    const auto resolve = [&device, image, alpha, style, shown](bool linear) {
         DisplaySettings settings = display_settings(style, alpha);
         if (linear && !shown) {
             settings.order = ToneOrder::never;
             settings.exposure_ev = 0, settings.background.reset();
         }
-        std::vector<float> rgba = resolve_display(device, image, settings);
+        std::vector<float> rgba = resolve_display(device, *image, settings);
         if (linear && !shown && style.background) put_on_background(rgba, *style.background);
         return rgba;
     };
     Source source;
-    source.window.width = source.window.full_width = image.width();
-    source.window.height = source.window.full_height = image.height();
+    source.window.width = source.window.full_width = image->width();
+    source.window.height = source.window.full_height = image->height();
     source.alpha = alpha && !style.background && !style.reconstruction.panel;
     source.linear = [resolve] { return resolve(true); };
     source.display = [resolve] { return resolve(false); };
@@ -190,15 +187,12 @@ Source source_of(Device& device, const BinImage& image, bool alpha, const Output
     return source;
 }
 
-}  // namespace
-
-void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
-                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+/// The film and the device must live as long.
+Source source_of(Device& device, const Film& film, const OutputStyle& style) {
     Source source;
-    BinImage image;
     if (style.denoise != Denoiser::off) {
-        image = denoised(device, film, style.denoise);
-        source = source_of(device, image, has_alpha(film), style);
+        source = source_of(device, std::make_shared<const BinImage>(denoised(device, film, style.denoise)),
+                           has_alpha(film), style);
     } else {
         source.alpha = has_alpha(film) && !style.background && !style.reconstruction.panel;
         source.linear = [&] { return linear_of(device, film, style); };
@@ -208,13 +202,36 @@ void write_outputs(const std::vector<std::string>& paths, Device& device, const 
     source.window.width = film.width, source.window.height = film.height;
     source.window.x = film.x, source.window.y = film.y;
     source.window.full_width = film.full_width, source.window.full_height = film.full_height;
+    return source;
+}
+
+}  // namespace
+
+void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
+                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+    Source source = source_of(device, film, style);
     source.layers = std::move(layers);
     write_all(paths, std::move(source), style, metadata);
 }
 
+std::vector<std::uint8_t> encode_output(const std::string& extension, Device& device, const Film& film,
+                                        const OutputStyle& style, const Metadata& metadata) {
+    const Source source = source_of(device, film, style);
+    if (!is_linear_format(extension)) {
+        EncodedPicture picture = encoded(source, style);
+        picture.metadata = metadata;
+        return encode_picture(extension, picture);
+    }
+    Picture picture = linear(source);
+    picture.metadata = metadata;
+    if (source.linear_is_display) picture.metadata["triad:values"] = "display-linear";
+    return extension == ".hdr" ? encode_hdr(picture) : encode_exr(picture, style.half);
+}
+
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
                    const OutputStyle& style, const Metadata& metadata) {
-    write_all(paths, source_of(device, image, alpha, style), style, metadata);
+    const std::shared_ptr<const BinImage> kept(&image, [](const BinImage*) {});  // the caller's
+    write_all(paths, source_of(device, kept, alpha, style), style, metadata);
 }
 
 }  // namespace triad

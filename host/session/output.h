@@ -46,6 +46,10 @@ std::vector<float> linear_of(Device& device, const Film& film, const OutputStyle
 void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
                    const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata);
 
+/// What write_outputs() would write to a file with this extension (".png", ".exr", ...), without layers.
+std::vector<std::uint8_t> encode_output(const std::string& extension, Device& device, const Film& film,
+                                        const OutputStyle& style, const Metadata& metadata);
+
 /// The same from any picture's bins, `name` for messages. Formats of linear values hold what a display shows
 /// where the bins are tone-mapped already.
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,

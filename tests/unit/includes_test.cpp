@@ -47,8 +47,9 @@ const std::map<std::string, Names> below = [] {
         {"bench", with(measured, {"render", "display"})},
         {"session", with(measured, {"render", "display", "capture", "check", "io"})},
         {"report", with(measured, {"render", "display", "check", "bench", "io", "session"})},
-        {"cli",
-         with(measured, {"render", "display", "capture", "check", "bench", "io", "session", "report"})},
+        {"viewer", with(measured, {"render", "display", "check", "io", "session", "report"})},
+        {"cli", with(measured, {"render", "display", "capture", "check", "bench", "io", "session", "report",
+                                "viewer"})},
         {"replay", with(measured, {"capture", "check"})},
     };
 }();
@@ -57,7 +58,7 @@ const std::map<std::string, Names> below = [] {
 const std::map<std::string, Names> owners = {
     {"CL/", {"device"}},       {"tiny_gltf", {"io"}},       {"OpenImageIO/", {"io"}}, {"draco/", {"io"}},
     {"meshoptimizer", {"io"}}, {"CLI/", {"cli", "replay"}}, {"xxhash", {"base"}},     {"glm/", {"base"}},
-    {"fftw3", {"panel"}},      {"zstd", {"capture"}}};
+    {"fftw3", {"panel"}},      {"zstd", {"capture"}},       {"httplib", {"viewer"}}};
 
 /// Which folders of kernels/ the headers of a folder may include from, beside itself and common. Programs
 /// (.cl) compose them all.
