@@ -130,21 +130,22 @@ void declare_camera(CLI::App& command, RenderRequest& o) {
     CLI::Option* camera = command.add_option("--camera", o.camera, "Camera of the file (default: the first)")
                               ->type_name("NAME|INDEX")
                               ->group(view_group);
-    add_parsed(
-        command, "--orbit", "AZIMUTH,ELEVATION[,ZOOM]",
-        "Frame the scene from there, in degrees from the front to the right and upwards; 2 is twice as large",
-        [&o](const std::string& v) {
-            const bool zoomed = std::count(v.begin(), v.end(), ',') > 1;
-            const auto n = parse_numbers("--orbit", v, zoomed ? 3 : 2);
-            o.orbit = {n[0], n[1], zoomed ? n[2] : 1.0};
-            if (std::abs(n[0]) > 1e6 || std::abs(n[1]) > 89.9 ||
-                !((*o.orbit)[2] >= 0.01 && (*o.orbit)[2] <= 1000))
-                throw Error(Exit::usage, "--orbit " + v +
-                                             ": expected an elevation within 89.9 degrees and a "
-                                             "zoom of .01 to 1000.");
-        })
-        ->excludes(camera)
-        ->group(view_group);
+    CLI::Option* orbit =
+        add_parsed(command, "--orbit", "AZIMUTH,ELEVATION[,ZOOM]",
+                   "Frame the scene from there, in degrees from the front to the right and upwards; 2 is "
+                   "twice as large",
+                   [&o](const std::string& v) {
+                       const bool zoomed = std::count(v.begin(), v.end(), ',') > 1;
+                       const auto n = parse_numbers("--orbit", v, zoomed ? 3 : 2);
+                       o.orbit = {n[0], n[1], zoomed ? n[2] : 1.0};
+                       if (std::abs(n[0]) > 1e6 || std::abs(n[1]) > 89.9 ||
+                           !((*o.orbit)[2] >= 0.01 && (*o.orbit)[2] <= 1000))
+                           throw Error(Exit::usage, "--orbit " + v +
+                                                        ": expected an elevation within 89.9 degrees and a "
+                                                        "zoom of .01 to 1000.");
+                   })
+            ->excludes(camera)
+            ->group(view_group);
     add_parsed(command, "--look-at", "EX,EY,EZ,TX,TY,TZ", "From this eye point to this target",
                [&o](const std::string& v) {
                    const auto n = parse_numbers("--look-at", v, 6);
@@ -157,6 +158,7 @@ void declare_camera(CLI::App& command, RenderRequest& o) {
                    std::copy(n.begin(), n.end(), o.look_at->begin());
                })
         ->excludes(camera)
+        ->excludes(orbit)
         ->group(view_group);
     command.add_option("--fov", o.fov, "Vertical angle of view in degrees")
         ->check(number_within(0.001, 179))

@@ -12,9 +12,9 @@ namespace triad {
 namespace {
 
 /// What a view says anew of the picture that it shows, and what is of the view alone.
-const std::vector<std::string> of_view{"--look-at", "--camera",     "--fov",      "--size",
-                                       "--crop",    "--variant",    "--exposure", "--tonemap",
-                                       "--port",    "--no-browser", "--verbose",  "--quiet"};
+const std::vector<std::string> of_view{"--look-at",    "--orbit",   "--camera",   "--fov",     "--size",
+                                       "--crop",       "--variant", "--exposure", "--tonemap", "--port",
+                                       "--no-browser", "--verbose", "--quiet"};
 /// How samples become pixels.
 const std::vector<std::string> of_display{"--panel", "--bins",     "--reconstruct", "--filter",
                                           "--ppd",   "--distance", "--pitch",       "--refine"};

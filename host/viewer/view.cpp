@@ -26,6 +26,9 @@ RenderRequest checked(RenderRequest request) {
         throw Error(Exit::usage, "A view shows a picture from its first sample on: leave --samples out.");
     request.profile = true;  // kernel times; and no file is written
     if (!request.spp && !request.error && !request.time) request.spp = endless;
+    if (request.style.denoise != Denoiser::off)
+        throw Error(Exit::usage,
+                    "--denoise is for triad render and resolve: the page shows what the samples say.");
     complete(request);
     set_host_threads(request.threads);
     if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);

@@ -141,6 +141,10 @@ std::vector<std::string> ViewLoop::options() const {
             for (const double x : *first_.look_at) values += (values.empty() ? "" : ",") + number(x);
             add("look-at", values);
         }
+        if (first_.orbit) {
+            const auto [azimuth, elevation, zoom] = *first_.orbit;
+            add("orbit", number(azimuth) + "," + number(elevation) + "," + number(zoom));
+        }
         if (first_.fov) add("fov", number(*first_.fov));
     }
     const uvec2 whole = size();

@@ -4,22 +4,12 @@
 #include <filesystem>
 #include <string>
 
+#include "expect_exit.h"
 #include "io/io.h"
-#include "program.h"
 #include "unit/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace triad;
-
-namespace {
-
-void expect_exit(int exit, const std::string& arguments, const std::string& says = "") {
-    const Outcome outcome = run_triad(arguments);
-    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
-    EXPECT_NE(outcome.output.find(says), std::string::npos) << arguments << "\n" << outcome.output;
-}
-
-}  // namespace
 
 TEST(DenoiseCommand, halves_the_error_and_says_so) {
     const TemporaryFolder folder;
@@ -56,7 +46,8 @@ TEST(DenoiseCommand, what_cannot_be_is_said_before_anything_is_rendered) {
     expect_exit(1, "render --denoise own --panel rgb" + out, "several bins");
     expect_exit(1, "render --denoise own --pixel 3,4", "none is made");
     expect_exit(0, "render --size 16x9 --spp 4 -q" + out);
-    expect_exit(1, "resolve " + (folder / "a.exr").string() + " --denoise own -o " + (folder / "b.exr").string(),
+    expect_exit(1,
+                "resolve " + (folder / "a.exr").string() + " --denoise own -o " + (folder / "b.exr").string(),
                 "know their noise");
     EXPECT_FALSE(fs::exists(folder / "b.exr"));
 }

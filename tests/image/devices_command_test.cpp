@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/device.h"
+#include "expect_exit.h"
 #include "io/io.h"
 #include "program.h"
 #include "running.h"
@@ -18,12 +19,6 @@ namespace fs = std::filesystem;
 using namespace triad;
 
 namespace {
-
-void expect_exit(int exit, const std::string& arguments, const std::string& sentence = "") {
-    const Outcome outcome = run_triad(arguments);
-    EXPECT_EQ(outcome.exit, exit) << arguments << "\n" << outcome.output;
-    EXPECT_NE(outcome.output.find(sentence), std::string::npos) << outcome.output;
-}
 
 /// A CPU device that can be halved, or none.
 std::string cpu() {
