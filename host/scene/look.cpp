@@ -61,11 +61,13 @@ double soft_box(const dvec3& d, const dvec3& middle, double half) {
     return (1 - smooth(0.8 * half, 1.1 * half, u)) * (1 - smooth(0.8 * half, 1.1 * half, v));
 }
 
+/// They end above the horizon.
 dvec3 studio_boxes(const dvec3& d) {
-    return dvec3(1.06, 1.0, 0.93) * (7.0 * soft_box(d, {-0.9, 0.75, 0.8}, 0.42)) +
-           dvec3(0.92, 0.98, 1.08) * (2.2 * soft_box(d, {1.2, 0.45, 0.5}, 0.5)) +
-           dvec3(1.0) * (5.0 * soft_box(d, {0.5, 0.6, -1.1}, 0.3)) +
-           dvec3(1.0) * (3.0 * soft_box(d, {0, 1, 0}, 0.5));
+    const dvec3 boxes = dvec3(1.06, 1.0, 0.93) * (7.0 * soft_box(d, {-0.9, 0.75, 0.8}, 0.42)) +
+                        dvec3(0.92, 0.98, 1.08) * (2.2 * soft_box(d, {1.2, 0.6, 0.5}, 0.4)) +
+                        dvec3(1.0) * (5.0 * soft_box(d, {0.5, 0.6, -1.1}, 0.3)) +
+                        dvec3(1.0) * (3.0 * soft_box(d, {0, 1, 0}, 0.5));
+    return boxes * smooth(0.0, 0.1, d.y);
 }
 
 /// The room is of the ground's radiance at the horizon and below, and darker above.
