@@ -81,7 +81,7 @@ dvec3 clear_sky(const dvec3& d) {
     const dvec3 blue = glm::mix(dvec3(0.62, 0.72, 0.85), dvec3(0.16, 0.32, 0.66), std::pow(up, 0.45));
     const double glow = 0.6 * std::pow(std::max(toward, 0.0), 24.0);
     const double disc = smooth(std::cos(0.06), std::cos(0.045), toward);
-    return blue + dvec3(1.0, 0.85, 0.62) * (glow + 190.0 * disc);
+    return blue + dvec3(1.0, 0.85, 0.62) * (glow + 900.0 * disc);
 }
 
 /// `lights` above a horizon whose radiance is that of the ground below them, times `base`.
@@ -117,7 +117,7 @@ void light(Scene& scene, Look look) {
             // Below the horizon lies what the ground reflects of the sky, whatever stands there.
             const auto above = [](const dvec3& d) { return d.y > 0 ? clear_sky(d) : dvec3(0.0); };
             const auto below = [](const dvec3& d) { return dvec3(d.y > 0 ? 0.0 : 1.0); };
-            scene.environment = map_above_ground(above, below, 1.6 * pi);
+            scene.environment = map_above_ground(above, below, 1.25 * pi);
             break;
         }
         case Look::white:
