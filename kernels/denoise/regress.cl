@@ -23,8 +23,11 @@ typedef float Lanes;
  */
 #if DENOISE_LANES > 1
 #define DENOISE_ABREAST DENOISE_SIDE
+#define DENOISE_UNROLL
 #else
 #define DENOISE_ABREAST 1
+/* Sums in registers: their places must be constants. */
+#define DENOISE_UNROLL _Pragma("unroll")
 #endif
 
 /* Squared differences of the pixels of `rows` rows from `first_row` on (and DENOISE_PATCH rows more on each
@@ -63,17 +66,17 @@ typedef struct DenoiseNormal {
 /* The products of DENOISE_ABREAST neighbours. values: their terms, then their colours. */
 TRIAD_FUNCTION void denoise_add(DenoiseNormal* normal, const Lanes* weights,
                                 Lanes values[DENOISE_TERMS + 3][DENOISE_ABREAST]) {
-    for (int i = 0; i < DENOISE_TERMS; ++i) {
+    DENOISE_UNROLL for (int i = 0; i < DENOISE_TERMS; ++i) {
         Lanes weighted[DENOISE_ABREAST];
 #pragma unroll
         for (int k = 0; k < DENOISE_ABREAST; ++k) weighted[k] = weights[k] * values[i][k];
-        for (int j = 0; j <= i; ++j) {
+        DENOISE_UNROLL for (int j = 0; j <= i; ++j) {
             Lanes sum = normal->gram[DENOISE_ENTRY(i, j)];
 #pragma unroll
             for (int k = 0; k < DENOISE_ABREAST; ++k) sum = fma(weighted[k], values[j][k], sum);
             normal->gram[DENOISE_ENTRY(i, j)] = sum;
         }
-        for (int c = 0; c < 3; ++c) {
+        DENOISE_UNROLL for (int c = 0; c < 3; ++c) {
             Lanes sum = normal->sums[i * 3 + c];
 #pragma unroll
             for (int k = 0; k < DENOISE_ABREAST; ++k)
@@ -85,13 +88,14 @@ TRIAD_FUNCTION void denoise_add(DenoiseNormal* normal, const Lanes* weights,
 
 /* Solves them for the constant term: what is left of the first row when the others are eliminated. */
 TRIAD_FUNCTION void denoise_solve(DenoiseNormal* normal) {
-    for (int n = DENOISE_TERMS - 1; n > 0; --n) {
+    DENOISE_UNROLL for (int n = DENOISE_TERMS - 1; n > 0; --n) {
         const Lanes inverse = 1.0f / normal->gram[DENOISE_ENTRY(n, n)];
-        for (int i = 0; i < n; ++i) {
+        DENOISE_UNROLL for (int i = 0; i < n; ++i) {
             const Lanes factor = normal->gram[DENOISE_ENTRY(n, i)] * inverse;
-            for (int j = 0; j <= i; ++j)
-                normal->gram[DENOISE_ENTRY(i, j)] -= factor * normal->gram[DENOISE_ENTRY(n, j)];
-            for (int c = 0; c < 3; ++c) normal->sums[i * 3 + c] -= factor * normal->sums[n * 3 + c];
+            DENOISE_UNROLL for (int j = 0; j <= i; ++j) normal->gram[DENOISE_ENTRY(i, j)] -=
+                factor * normal->gram[DENOISE_ENTRY(n, j)];
+            DENOISE_UNROLL for (int c = 0; c < 3; ++c) normal->sums[i * 3 + c] -=
+                factor * normal->sums[n * 3 + c];
         }
     }
 }
@@ -120,9 +124,9 @@ kernel void regress(global const DenoiseShape* shape, global const float* planes
     global const float* colours = planes + half_planes * plane;
     DenoiseNormal normal;
     Lanes values[DENOISE_TERMS + 3][DENOISE_ABREAST], weights[DENOISE_ABREAST];
-    for (int i = 0; i < DENOISE_GRAM; ++i) normal.gram[i] = (Lanes)(0.0f);
-    for (int i = 0; i < DENOISE_TERMS * 3; ++i) normal.sums[i] = (Lanes)(0.0f);
-    for (int k = 0; k < DENOISE_ABREAST; ++k) values[0][k] = (Lanes)(1.0f);
+    DENOISE_UNROLL for (int i = 0; i < DENOISE_GRAM; ++i) normal.gram[i] = (Lanes)(0.0f);
+    DENOISE_UNROLL for (int i = 0; i < DENOISE_TERMS * 3; ++i) normal.sums[i] = (Lanes)(0.0f);
+    DENOISE_UNROLL for (int k = 0; k < DENOISE_ABREAST; ++k) values[0][k] = (Lanes)(1.0f);
     const int left_above = y, left_below = (int)shape->height - 1 - y;
     const int above = left_above < DENOISE_REACH ? -left_above : -DENOISE_REACH,
               below = left_below < DENOISE_REACH ? left_below : DENOISE_REACH;
@@ -138,19 +142,19 @@ kernel void regress(global const DenoiseShape* shape, global const float* planes
                 weights[k] =
                     LANES_WHERE((x + dx + LANES_INDICES >= 0) & (x + dx + LANES_INDICES < width), weight);
                 const size_t q = at + (size_t)((ptrdiff_t)dy * stride + dx);
-                for (int i = 1; i < DENOISE_TERMS; ++i) {
+                DENOISE_UNROLL for (int i = 1; i < DENOISE_TERMS; ++i) {
                     global const float* guide = guides + (size_t)(i - 1) * plane;
                     values[i][k] = LANES_LOAD(guide + q) - LANES_LOAD(guide + at);
                 }
-                for (int c = 0; c < 3; ++c)
-                    values[DENOISE_TERMS + c][k] = LANES_LOAD(colours + (size_t)c * plane + q);
+                DENOISE_UNROLL for (int c = 0; c < 3; ++c) values[DENOISE_TERMS + c][k] =
+                    LANES_LOAD(colours + (size_t)c * plane + q);
             }
             denoise_add(&normal, weights, values);
         }
     /* A ridge: guides that hardly change around a pixel explain nothing. */
-    for (int i = 1; i < DENOISE_TERMS; ++i)
-        normal.gram[DENOISE_ENTRY(i, i)] += 3e-4f * normal.gram[0] + 1e-9f;
+    DENOISE_UNROLL for (int i = 1; i < DENOISE_TERMS; ++i) normal.gram[DENOISE_ENTRY(i, i)] +=
+        3e-4f * normal.gram[0] + 1e-9f;
     denoise_solve(&normal);
-    for (int c = 0; c < 3; ++c)
+    DENOISE_UNROLL for (int c = 0; c < 3; ++c)
         LANES_STORE(normal.sums[c] / normal.gram[0], out + (out_planes + (size_t)c) * plane + at);
 }

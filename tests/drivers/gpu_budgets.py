@@ -12,7 +12,7 @@ import re
 PATH = pathlib.Path(__file__).with_suffix(".json")
 FIGURES = ("registers", "stack", "spills", "width")
 # What the host says to GPUs beside the options of features.h.
-SHAPE = {"DISPLAY_LANES": 1, "DISPLAY_ROWS": 4, "TRIAD_BVH4": 1, "TRIAD_INLINED": 1}
+SHAPE = {"DISPLAY_LANES": 1, "DENOISE_LANES": 1, "DISPLAY_ROWS": 4, "TRIAD_BVH4": 1, "TRIAD_INLINED": 1}
 
 
 def feature_names(kernels):
