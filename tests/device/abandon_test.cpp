@@ -17,11 +17,11 @@ RenderSettings settings_of_several_launches() {
     return settings;
 }
 
-bool go_on(const Progress&) { return true; }
+bool keep_going(const Progress&) { return true; }
 
 Film undisturbed(const Scene& scene) {
     Renderer renderer(test_device(), scene, settings_of_several_launches());
-    renderer.render_until({.samples = all, .follow = false}, go_on);
+    renderer.render_until({.samples = all, .follow = false}, keep_going);
     return renderer.film();
 }
 
@@ -32,7 +32,7 @@ TEST(Abandon, a_render_goes_on_from_wherever_it_stopped) {
     for (unsigned launches = 0;; ++launches) {
         unsigned asked = 0;
         const RenderResult result = renderer.render_until(
-            {.samples = all, .follow = false, .abandon = [&] { return asked++ > launches; }}, go_on);
+            {.samples = all, .follow = false, .abandon = [&] { return asked++ > launches; }}, keep_going);
         if (result.stop != Stop::interrupt) break;
         ++stops;
     }
@@ -53,7 +53,7 @@ TEST(Abandon, who_looks_on_is_shown_the_film_when_it_is_wanted) {
         EXPECT_GE(total, samples);
         samples = total, ++shown, wanted = false;
     };
-    renderer.render_until(goal, go_on);
+    renderer.render_until(goal, keep_going);
     EXPECT_GT(shown, 0u);
     expect_same_bytes(undisturbed(scene), renderer.film(), "looked at");
 }
