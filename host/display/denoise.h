@@ -25,8 +25,8 @@ void require_denoisable(const Film& film);
 
 /// Mean scene-linear radiance of every pixel with the noise of its samples reduced; alpha as it is. Guided by
 /// the film's guides where it has any, else by colours alone. Throws Error(usage) as require_denoisable(),
-/// Error(unsupported) when Open Image Denoise is not found, DeviceError. `lanes`: DisplayShape::lanes of the own
-/// one; none: display_shape of the device.
+/// Error(unsupported) when Open Image Denoise is not found, DeviceError. `lanes`: DisplayShape::lanes of the
+/// own one; none: display_shape of the device.
 BinImage denoised(Device& device, const Film& film, Denoiser denoiser, std::optional<unsigned> lanes = {});
 
 }  // namespace triad
