@@ -1,6 +1,7 @@
 #include "base/progress.h"
 
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "base/log.h"
 #include "base/spans.h"
@@ -32,6 +34,12 @@ std::string picture_text(const ProgressState& state, const char* between) {
     if (state.wanted_relmse > 0)
         text += format(", %.2g in ", state.wanted_relmse) + left_text(state.seconds_to_error);
     return text;
+}
+
+/// A thread takes address space, of which a process with a limit has none to spare for this.
+bool has_room_for_a_clock() {
+    rlimit space{};
+    return ::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur == RLIM_INFINITY;
 }
 
 std::string json_number(double value, const char* pattern) {
@@ -119,7 +127,7 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style) : style_(style) {
 }
 
 ProgressDisplay::~ProgressDisplay() {
-    if (clock_.joinable() || style_ == ProgressStyle::json) watch_phases(nullptr);
+    watch_phases(nullptr);
     if (style_ == ProgressStyle::bar) before_each_line(nullptr);
     if (clock_.joinable()) clock_.request_stop(), clock_.join();
     clear_bar();
@@ -158,8 +166,12 @@ void ProgressDisplay::update(const ProgressState& state) {
 void ProgressDisplay::show_phases() {
     if (style_ == ProgressStyle::none) return;
     watch_phases([this](const char* phase) { begin_phase(phase); });
-    if (style_ != ProgressStyle::json)
+    if (style_ == ProgressStyle::json || !has_room_for_a_clock()) return;
+    try {
         clock_ = std::jthread([this](const std::stop_token& s) { run_clock(s); });
+    } catch (const std::system_error&) {
+        // a limit on threads: phases are not shown
+    }
 }
 
 void ProgressDisplay::begin_phase(const char* phase) {
