@@ -86,10 +86,10 @@ dvec3 clear_sky(const dvec3& d) {
 
 /// `lights` above a horizon whose radiance is that of the ground below them, times `base`.
 EnvironmentMap map_above_ground(const Radiance& lights, const Radiance& base, double irradiance) {
-    const double of_lights = irradiance_above(lights).y, of_base = irradiance_above(base).y;
-    // The ground's radiance r = albedo / pi (of_lights + r of_base), solved.
-    const double ground = ground_albedo / pi * of_lights / (1 - ground_albedo / pi * of_base);
-    const double scale = irradiance / (of_lights + ground * of_base);
+    const dvec3 of_lights = irradiance_above(lights), of_base = irradiance_above(base);
+    // The ground's radiance r = albedo / pi (of_lights + r of_base), solved for each channel.
+    const dvec3 ground = ground_albedo / pi * of_lights / (1.0 - ground_albedo / pi * of_base);
+    const double scale = irradiance / (of_lights + ground * of_base).y;
     return map_of([&](const dvec3& d) { return lights(d) + ground * base(d); }, scale);
 }
 

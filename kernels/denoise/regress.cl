@@ -4,19 +4,8 @@
  * Means Filtering"). */
 #include "denoise/denoise.h"
 
-#if DENOISE_LANES == 16
-typedef float16 Lanes;
-#define LANES_LOAD(p) vload16(0, p)
-#define LANES_STORE(v, p) vstore16(v, 0, p)
-#define LANES_INDICES ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#define LANES_WHERE(condition, v) select((Lanes)(0.0f), v, condition)
-#elif DENOISE_LANES == 1
-typedef float Lanes;
-#define LANES_LOAD(p) (*(p))
-#define LANES_STORE(v, p) (*(p) = (v))
-#define LANES_INDICES 0
-#define LANES_WHERE(condition, v) ((condition) ? (v) : 0.0f)
-#endif
+#define LANES DENOISE_LANES
+#include "common/lanes.h"
 
 /* Neighbours whose products are added at once, a row of them on a CPU: sums are read and written as often
  * less.

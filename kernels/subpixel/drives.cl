@@ -18,19 +18,8 @@
 #define DISPLAY_TAPS 9
 #endif
 
-#if DISPLAY_LANES == 16
-typedef float16 Lanes;
-#define LANES_LOAD(p) vload16(0, p)
-#define LANES_STORE(v, p) vstore16(v, 0, p)
-#define LANES_INDICES ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
-#define LANES_WHERE(condition, v) select((Lanes)(0.0f), v, condition)
-#elif DISPLAY_LANES == 1
-typedef float Lanes;
-#define LANES_LOAD(p) (*(p))
-#define LANES_STORE(v, p) (*(p) = (v))
-#define LANES_INDICES 0
-#define LANES_WHERE(condition, v) ((condition) ? (v) : 0.0f)
-#endif
+#define LANES DISPLAY_LANES
+#include "common/lanes.h"
 
 /* What a work-item does: DISPLAY_ROWS rows of a plane of outputs, from `row` on in steps of `step` (the
  * phases: rows of one phase share their taps), each for DISPLAY_LANES cells from the run-th such group on. */
