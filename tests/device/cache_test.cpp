@@ -8,34 +8,18 @@
 
 #include "base/hash.h"
 #include "device_fixture.h"
+#include "own_cache.h"
 
 namespace fs = std::filesystem;
 using namespace triad;
 
 namespace {
 
-/// An empty cache folder of its own for one test.
 class Cache : public testing::Test {
   protected:
-    fs::path folder = fs::temp_directory_path() / ("triad-cache-" + std::to_string(::getpid()));
-    std::string before;
-    bool was_set = false;
-    void SetUp() override {
-        test_device();  // drivers read the variable too, when they start
-        if (const char* value = std::getenv("XDG_CACHE_HOME")) before = value, was_set = true;
-        ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
-    }
-    void TearDown() override {
-        was_set ? ::setenv("XDG_CACHE_HOME", before.c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
-        fs::remove_all(folder);
-    }
-    std::vector<fs::path> programs() const {
-        std::vector<fs::path> paths;
-        const fs::path at = folder / "triad/programs";
-        if (fs::exists(at))
-            for (const auto& entry : fs::directory_iterator(at)) paths.push_back(entry.path());
-        return paths;
-    }
+    Device& device = test_device();  // open before the cache is another
+    const OwnCache cache;
+    std::vector<fs::path> programs() const { return cache.files("programs"); }
     static Device again() { return Device::open({.selector = std::to_string(test_device().info().index)}); }
     static std::uint32_t answer(const std::string& value = "42") {
         Device device = again();
@@ -96,7 +80,7 @@ TEST_F(Cache, survives_damaged_entries_and_mends_them) {
 }
 
 TEST_F(Cache, that_cannot_be_written_is_a_temporary_one_of_this_process) {
-    std::ofstream(folder) << "a file where the folder should be";
+    std::ofstream(cache.folder() / "triad") << "a file where the folder should be";
     EXPECT_EQ(answer(), 42u);
     EXPECT_FALSE(load_timings(test_device().info()));
     keep_timings(test_device().info(), some_timings());
@@ -119,8 +103,7 @@ TEST_F(Cache, keeps_what_was_tuned_per_device_and_driver) {
           "{\"schema\": \"triad.tuned/2\", \"timings\": [{\"search\": \"rays\", \"seconds\": 1, \"values\": "
           "{\"local\": "
           "\"8\"}}]}"}) {
-        for (const auto& entry : fs::directory_iterator(folder / "triad/tuned"))
-            std::ofstream(entry.path()) << bad;
+        for (const fs::path& path : cache.files("tuned")) std::ofstream(path) << bad;
         EXPECT_FALSE(load_timings(info)) << bad;
     }
 }

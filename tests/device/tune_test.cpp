@@ -2,8 +2,6 @@
 // searches keep what they found.
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -12,6 +10,7 @@
 
 #include "check/ray_caster.h"
 #include "device_fixture.h"
+#include "own_cache.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
 
@@ -23,26 +22,17 @@ namespace {
 /// Puts the device's choices back, and keeps the user's cache out of the test.
 class Tune : public ::testing::Test {
   protected:
-    Tune() {
-        if (const char* old = std::getenv("XDG_CACHE_HOME")) old_cache_ = old;
-        std::filesystem::remove_all(folder_);
-        setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
-    }
     ~Tune() override {
         test_device().set_preferred_local(local_);
         set_format(test_device(), format_);
         set_path_driver(test_device(), path_driver_);
-        old_cache_.empty() ? unsetenv("XDG_CACHE_HOME") : setenv("XDG_CACHE_HOME", old_cache_.c_str(), 1);
-        std::filesystem::remove_all(folder_);
     }
 
   private:
-    std::filesystem::path folder_ =
-        std::filesystem::temp_directory_path() / ("triad-tune-" + std::to_string(getpid()));
-    std::string old_cache_;
     std::size_t local_ = test_device().preferred_local();
     BvhFormat format_ = format_of(test_device());
     PathDriverKind path_driver_ = path_driver_of(test_device());
+    OwnCache cache_;
 };
 
 const TuneSearch& search_of(const std::string& name) {

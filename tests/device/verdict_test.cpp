@@ -1,6 +1,5 @@
 // The verdict on a device: found once, kept per device, driver and kernels, and a wrong device is refused.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,26 +9,17 @@
 #include "check/measurements.h"
 #include "check/verdict.h"
 #include "device_fixture.h"
+#include "own_cache.h"
 
 namespace fs = std::filesystem;
 
 namespace triad {
 namespace {
 
-/// An empty cache folder of its own for one test.
 class VerdictTest : public testing::Test {
   protected:
-    fs::path folder = fs::temp_directory_path() / ("triad-verdict-" + std::to_string(::getpid()));
-    std::optional<std::string> before;
-    void SetUp() override {
-        test_device();  // drivers read the variable too, when they start
-        if (const char* value = std::getenv("XDG_CACHE_HOME")) before = value;
-        ::setenv("XDG_CACHE_HOME", folder.c_str(), 1);
-    }
-    void TearDown() override {
-        before ? ::setenv("XDG_CACHE_HOME", before->c_str(), 1) : ::unsetenv("XDG_CACHE_HOME");
-        fs::remove_all(folder);
-    }
+    Device& device = test_device();  // open before the cache is another
+    const OwnCache cache;
 };
 
 CheckResult result_of(const char* name, std::optional<bool> ok) {
@@ -65,8 +55,7 @@ TEST_F(VerdictTest, that_cannot_be_read_is_none) {
           "{\"schema\": \"triad.verdict/1\", \"wrong\": 1}",
           "{\"schema\": \"triad.verdict/1\", \"wrong\": [1]}"}) {
         keep_verdict(info, BvhFormat::bvh8, {});
-        for (const auto& entry : fs::directory_iterator(folder / "triad/checked/mega-bvh8"))
-            std::ofstream(entry.path()) << bad;
+        for (const fs::path& path : cache.files("checked/mega-bvh8")) std::ofstream(path) << bad;
         EXPECT_FALSE(load_verdict(info, BvhFormat::bvh8)) << bad;
     }
 }

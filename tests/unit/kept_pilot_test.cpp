@@ -5,8 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <string>
+
+#include "own_cache.h"
 
 namespace triad {
 namespace {
@@ -17,28 +18,11 @@ DeviceInfo named(const std::string& name) {
     return device;
 }
 
-/// Removes what the tests have kept.
 class KeptPilot : public testing::Test {
   protected:
+    const OwnCache cache;
     const DeviceInfo device = named("KeptPilot");
-    const std::filesystem::path folder = kept_path(device, "pilots").parent_path();
-    std::set<std::filesystem::path> before = files();
-
-    std::set<std::filesystem::path> files() const {
-        std::set<std::filesystem::path> found;
-        if (std::filesystem::exists(folder))
-            for (const auto& entry : std::filesystem::directory_iterator(folder)) found.insert(entry.path());
-        return found;
-    }
-    std::set<std::filesystem::path> added() const {
-        std::set<std::filesystem::path> found;
-        for (const auto& path : files())
-            if (!before.contains(path)) found.insert(path);
-        return found;
-    }
-    void TearDown() override {
-        for (const auto& path : added()) std::filesystem::remove(path);
-    }
+    std::vector<std::filesystem::path> files() const { return cache.files("pilots"); }
 };
 
 TEST_F(KeptPilot, is_found_by_all_that_it_follows_from) {
@@ -59,8 +43,8 @@ TEST_F(KeptPilot, what_is_damaged_is_not_there) {
           R"({"schema": "triad.pilot/1", "paths": true, "photons": 3})",
           R"({"schema": "triad.pilot/1", "paths": false, "photons": "many"})"}) {
         keep_pilot(device, "a scene", {false, 77});
-        ASSERT_EQ(added().size(), 1u);
-        std::ofstream(*added().begin()) << text;
+        ASSERT_EQ(files().size(), 1u);
+        std::ofstream(files().front()) << text;
         EXPECT_FALSE(kept_pilot(device, "a scene")) << text;
     }
 }

@@ -1,12 +1,11 @@
 // Taps from the user's cache are those of the designer, whatever has become of the files.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "own_cache.h"
 #include "panel/design.h"
-#include "temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace triad;
@@ -26,22 +25,10 @@ void expect_same(const TapTable& a, const TapTable& b, const std::string& what) 
     }
 }
 
-/// The user's cache is an empty folder.
 class KeptTapsElsewhere : public testing::Test {
   protected:
-    TemporaryFolder folder;
-    std::string before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
-    void SetUp() override { ::setenv("XDG_CACHE_HOME", (folder / "").c_str(), 1); }
-    void TearDown() override {
-        before.empty() ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
-    }
-    std::vector<fs::path> files() const {
-        std::vector<fs::path> all;
-        if (fs::exists(folder / "triad/taps"))
-            for (const auto& entry : fs::directory_iterator(folder / "triad/taps"))
-                all.push_back(entry.path());
-        return all;
-    }
+    const OwnCache cache;
+    std::vector<fs::path> files() const { return cache.files("taps"); }
 };
 
 }  // namespace
@@ -92,7 +79,7 @@ TEST_F(KeptTapsElsewhere, are_designed_again_when_their_file_is_damaged) {
 }
 
 TEST_F(KeptTapsElsewhere, are_designed_where_nothing_can_be_kept) {
-    std::ofstream(folder / "triad") << "a file where the folder would be";
+    std::ofstream(cache.folder() / "triad") << "a file where the folder would be";
     const Panel rgb = *builtin_panel("rgb");
     expect_same(kept_taps(rgb, 45), design_taps(rgb, 45), "no folder");
 }
