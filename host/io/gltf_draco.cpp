@@ -105,6 +105,8 @@ class CompressedPrimitive {
                               const std::string& what) {
         const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(id);
         if (!attribute) fail(what + " is not in the compressed data.");
+        if (attribute->data_type() == draco::DT_BOOL)  // any byte of it would be taken for a bool
+            fail(what + " is of truth values in the compressed data, which glTF does not know.");
         json accessor = document_["accessors"][old];
         const unsigned components = components_of(accessor["type"].get<std::string>());
         if (components == 0 || components != unsigned(attribute->num_components()))

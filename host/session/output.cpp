@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/text.h"
+#include "display/exposure.h"
 #include "display/resolve.h"
 #include "session/metadata.h"
 
@@ -110,6 +112,11 @@ DisplaySettings display_settings(const OutputStyle& style, bool alpha) {
     return settings;
 }
 
+OutputStyle exposed(OutputStyle style, const Film& film) {
+    if (style.automatic_exposure) style.exposure = automatic_exposure(film), style.automatic_exposure = false;
+    return style;
+}
+
 std::vector<float> display_of(Device& device, const Film& film, const OutputStyle& style) {
     return resolve_display(device, film, display_settings(style, has_alpha(film)));
 }
@@ -131,6 +138,14 @@ std::vector<float> linear_of(Device& device, const Film& film, const OutputStyle
 
 namespace {
 
+/// What was applied to values that are shown.
+void add_exposure(const OutputStyle& style, Metadata& metadata) {
+    if (style.exposure != 0) metadata["triad:exposure"] = format("%g", style.exposure);
+}
+void tell_exposure(const OutputStyle& style) {
+    inform(format("Exposure %+.1f EV, from the picture's mean luminance", style.exposure));
+}
+
 void write_all(const std::vector<std::string>& paths, Source source, const OutputStyle& style,
                const Metadata& metadata) {
     std::optional<Picture> linear_picture;
@@ -141,7 +156,10 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
             if (!linear_picture) {
                 linear_picture = linear(source);
                 linear_picture->metadata = metadata;
-                if (source.linear_is_display) linear_picture->metadata["triad:values"] = "display-linear";
+                if (source.linear_is_display) {
+                    linear_picture->metadata["triad:values"] = "display-linear";
+                    add_exposure(style, linear_picture->metadata);
+                }
                 std::move(source.layers.begin(), source.layers.end(),
                           std::back_inserter(linear_picture->channels));
             }
@@ -156,6 +174,7 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
         if (!display) {
             display = encoded(source, style);
             display->metadata = metadata;
+            add_exposure(style, display->metadata);
         }
         if (path == "-")
             write_standard_output(encode_picture(extension, *display));
@@ -208,28 +227,39 @@ Source source_of(Device& device, const Film& film, const OutputStyle& style) {
 }  // namespace
 
 void write_outputs(const std::vector<std::string>& paths, Device& device, const Film& film,
-                   const OutputStyle& style, std::vector<Channel> layers, const Metadata& metadata) {
+                   const OutputStyle& asked, std::vector<Channel> layers, const Metadata& metadata) {
+    const OutputStyle style = exposed(asked, film);
+    if (asked.automatic_exposure) tell_exposure(style);
     Source source = source_of(device, film, style);
     source.layers = std::move(layers);
     write_all(paths, std::move(source), style, metadata);
 }
 
 std::vector<std::uint8_t> encode_output(const std::string& extension, Device& device, const Film& film,
-                                        const OutputStyle& style, const Metadata& metadata) {
+                                        const OutputStyle& asked, const Metadata& metadata) {
+    const OutputStyle style = exposed(asked, film);
     const Source source = source_of(device, film, style);
     if (!is_linear_format(extension)) {
         EncodedPicture picture = encoded(source, style);
         picture.metadata = metadata;
+        add_exposure(style, picture.metadata);
         return encode_picture(extension, picture);
     }
     Picture picture = linear(source);
     picture.metadata = metadata;
-    if (source.linear_is_display) picture.metadata["triad:values"] = "display-linear";
+    if (source.linear_is_display) {
+        picture.metadata["triad:values"] = "display-linear";
+        add_exposure(style, picture.metadata);
+    }
     return extension == ".hdr" ? encode_hdr(picture) : encode_exr(picture, style.half);
 }
 
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
-                   const OutputStyle& style, const Metadata& metadata) {
+                   OutputStyle style, const Metadata& metadata) {
+    if (style.automatic_exposure && !image.encoded) {
+        style.exposure = automatic_exposure(image.rgba, image.columns), style.automatic_exposure = false;
+        tell_exposure(style);
+    }
     const std::shared_ptr<const BinImage> kept(&image, [](const BinImage*) {});  // the caller's
     write_all(paths, source_of(device, kept, alpha, style), style, metadata);
 }

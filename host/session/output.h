@@ -14,7 +14,8 @@ namespace triad {
 
 /// How a film becomes pictures.
 struct OutputStyle {
-    double exposure = 0;  ///< EV: radiance is multiplied by 2^exposure before the tone map
+    double exposure = 0;              ///< EV: radiance is multiplied by 2^exposure before the tone map
+    bool automatic_exposure = false;  ///< automatic_exposure() of the picture in its place
     std::string tone_map = "khronos";
     std::optional<vec3> background;  ///< linear; put behind everything that is transparent
     Reconstruction reconstruction;   ///< EXR and HDR hold what a display shows where it says so
@@ -35,6 +36,9 @@ void check_format_for(const Reconstruction& method, const std::vector<std::strin
 /// The part of the way to pixels that the style decides.
 DisplaySettings display_settings(const OutputStyle& style, bool alpha);
 
+/// The style with the exposure that it has for this film.
+OutputStyle exposed(OutputStyle style, const Film& film);
+
 /// What a PNG shows before the sRGB curve: tone-mapped RGBA, on the background where there is one.
 std::vector<float> display_of(Device& device, const Film& film, const OutputStyle& style);
 /// What an EXR holds: scene-linear RGBA, or what a display shows.
@@ -53,6 +57,6 @@ std::vector<std::uint8_t> encode_output(const std::string& extension, Device& de
 /// The same from any picture's bins, `name` for messages. Formats of linear values hold what a display shows
 /// where the bins are tone-mapped already.
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
-                   const OutputStyle& style, const Metadata& metadata);
+                   OutputStyle style, const Metadata& metadata);
 
 }  // namespace triad

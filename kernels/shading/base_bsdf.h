@@ -51,13 +51,16 @@ typedef struct BaseBsdf {
 } BaseBsdf;
 
 #if BSDF_TRANSMISSION
+/* One interface without a film, whose dielectric of this index reflects r. */
+TRIAD_FUNCTION Colour base_interface_fresnel(const BaseBsdf* b, float r) {
+    /* Brewster's dip goes below normal incidence */
+    return colour_at_least(colour_fma_scale(r, b->fresnel1, b->fresnel0), colour_splat(0.0f));
+}
 /* Fresnel factor of the transmitting part, c the cosine on wo's side. */
 TRIAD_FUNCTION Colour base_transmitter_fresnel(const BaseBsdf* b, float c) {
     float r = fresnel_dielectric(c, b->eta);
     if (r >= 1.0f) return colour_splat(1.0f);
-    Colour f = colour_fma_scale(r, b->fresnel1, b->fresnel0);
-    /* Brewster's dip goes below normal incidence */
-    f = colour_at_least(f, colour_splat(0.0f));
+    Colour f = base_interface_fresnel(b, r);
 #if BSDF_FILM
     if (b->film_share > 0.0f) { /* as seen from outside: a reflection has no side */
         float outside = b->eta < 1.0f ? fresnel_refracted_cosine(c, b->eta) : c;

@@ -5,31 +5,53 @@
 #include "shading/base_bsdf.h"
 
 #if BSDF_FILM
-/* Mean of the film's reflectance over the reflections of the rough base, weighted as they are seen; of a
- * body's boundary (eta: index beyond over index before, else 0) over all its normals that do not reflect
- * totally. */
-TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo, float eta) {
+#define FILM_NORMALS 16u
+/* Of that many visible normals of the rough base. */
+TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k) {
+    const float turn = (float)k * 0.618034f;
+    return base_normal(b, wo, 1.0f,
+                       vec2_make(turn - math_floor(turn), ((float)k + 0.5f) * (1.0f / FILM_NORMALS)));
+}
+/* Share of what a visible normal scatters to w.z above the surface that is not masked: G2 / G1. */
+TRIAD_FUNCTION float base_unmasked(const BaseBsdf* b, Vec3 wo, Vec3 w) {
+    if (w.z <= 0.0f) return 0.0f;
+    return 0.5f * (wo.z + b->stretch) * ggx_masking(wo.z, b->stretch, w.z, base_stretch(b, w));
+}
+/* Mean of the film's reflectance over the reflections of the rough base, weighted as they are seen. */
+TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
     if (b->smooth) return film_reflectance(&b->film_input, b->film0, wo.z);
     Colour sum = colour_splat(0.0f);
     float weights = 0.0f;
-    for (uint k = 0u; k < 16u; ++k) {
-        Vec2 u = vec2_make((float)k * 0.618034f, ((float)k + 0.5f) * 0.0625f);
-        Vec3 h = base_normal(b, wo, 1.0f, vec2_make(u.x - math_floor(u.x), u.y));
-        float c = math_min(vec3_dot(wo, h), 1.0f), g = 1.0f;
-        if (eta > 0.0f) {
-            if (eta < 1.0f) c = fresnel_refracted_cosine(c, eta);
-            if (c <= 0.0f) continue;
-        } else {
-            Vec3 wi = vec3_reflect(wo, h);
-            if (wi.z <= 0.0f) continue;
-            g = ggx_masking(wo.z, b->stretch, wi.z, base_stretch(b, wi)) * (wo.z + b->stretch);
-        }
-        sum = colour_fma_scale(g, film_reflectance(&b->film_input, b->film0, c), sum);
+    for (uint k = 0u; k < FILM_NORMALS; ++k) {
+        const Vec3 h = base_film_normal(b, wo, k);
+        const float g = base_unmasked(b, wo, vec3_reflect(wo, h));
+        if (g <= 0.0f) continue;
+        sum = colour_fma_scale(g, film_reflectance(&b->film_input, b->film0, math_min(vec3_dot(wo, h), 1.0f)),
+                               sum);
         weights += g;
     }
     return weights > 0.0f ? colour_scale(sum, 1.0f / weights)
                           : film_reflectance(&b->film_input, b->film0, wo.z);
 }
+#if BSDF_TRANSMISSION
+/* What a film of share 1 adds to the albedo of a rough body: it reflects more than the interface that the
+ * table is of, and what is reflected is masked otherwise than what is refracted. */
+TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
+    Colour sum = colour_splat(0.0f);
+    for (uint k = 0u; k < FILM_NORMALS; ++k) {
+        const Vec3 h = base_film_normal(b, wo, k);
+        const float c = math_min(vec3_dot(wo, h), 1.0f), beyond = fresnel_refracted_cosine(c, b->eta);
+        if (beyond <= 0.0f) continue; /* total reflection is that, with a film too */
+        const Vec3 refracted =
+            vec3_sub(vec3_scale(wo, 1.0f / b->eta), vec3_scale(h, c / b->eta - beyond)); /* its opposite */
+        const Colour film = film_reflectance(&b->film_input, b->film0, b->eta < 1.0f ? beyond : c);
+        const Colour rise = colour_sub(film, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
+        sum = colour_fma_scale(base_unmasked(b, wo, vec3_reflect(wo, h)) - base_unmasked(b, wo, refracted),
+                               rise, sum);
+    }
+    return colour_scale(sum, 1.0f / FILM_NORMALS);
+}
+#endif
 #endif
 
 #if BSDF_FILM
@@ -38,7 +60,7 @@ TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo, float eta) {
 TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float opaque, float kept,
                                    Colour* coat_albedo) {
     b->film_input = in->film_input;
-    Colour mean = base_film_mean(b, wo, 0.0f);
+    Colour mean = base_film_mean(b, wo);
     Colour whole = colour_fma_scale((1.0f - kept) / kept, mean, colour_splat(1.0f));
     Colour film_albedo = colour_scale(colour_mul(whole, mean), in->film * kept);
     float weight = fma(opaque, in->specular, in->metallic);
@@ -78,7 +100,7 @@ TRIAD_FUNCTION float base_lambert_albedo(const BaseBsdf* b) {
  * `reflected` is the albedo of GGX with Fresnel factor 1. Returns an estimate of its albedo. */
 TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float transmitter,
                                           Colour coat0, float reflected, global const float* albedo_tables) {
-    const float f0 = fresnel_normal(in->ior), root_mu = sqrt(wo.z);
+    const float f0 = fresnel_normal(in->ior);
     const Colour coat_rise = colour_sub(colour_splat(in->specular), coat0);
     b->fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
     b->fresnel0 = colour_fma_scale(-f0, b->fresnel1, coat0);
@@ -89,17 +111,13 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
     if (!b->smooth) {
         Colour kept = colour_splat(reflected);
         if (in->solid) {
-            Vec2 glass = albedo_glass(albedo_tables, root_mu, in->roughness, f0, in->inside);
+            Vec2 glass = albedo_glass(albedo_tables, wo.z, in->roughness, f0, in->inside);
             Colour lost = colour_sub(colour_complement(b->fresnel0), b->fresnel1);
             kept = colour_add(
                 colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
                 colour_scale(lost, glass.y));
 #if BSDF_FILM
-            if (b->film_share > 0.0f) { /* reflects another share than the interface that the table is of */
-                Colour film = colour_fma_scale(reflected - glass.y, base_film_mean(b, wo, b->eta),
-                                               colour_splat(glass.y));
-                kept = colour_fma_scale(b->film_share, colour_sub(film, kept), kept);
-            }
+            if (b->film_share > 0.0f) kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
 #endif
         }
         b->transmitter = colour_div(colour_splat(transmitter), kept);
@@ -161,11 +179,10 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     }
     /* directional albedo of GGX reflection, Fresnel factor 1 and (1 - cos)^5 */
     Vec2 albedo = vec2_make(1.0f, fresnel_schlick_weight(wo.z));
-    float root_mu = sqrt(wo.z);
-    if (!b.smooth) albedo = albedo_ggx(albedo_tables, root_mu, in->roughness);
+    if (!b.smooth) albedo = albedo_ggx(albedo_tables, wo.z, in->roughness);
 #if BSDF_STRETCHED
     if (!b.smooth && b.alpha_x != b.alpha)
-        albedo = albedo_anisotropic(albedo_tables, root_mu, wo, sqrt(b.alpha), in->anisotropy);
+        albedo = albedo_stretched(albedo_tables, wo, sqrt(b.alpha), in->anisotropy);
 #endif
     float missing = (1.0f - albedo.x) / albedo.x; /* Turquin 2019: f = f_single (1 + F0 (1 - E) / E) */
 

@@ -25,7 +25,7 @@ typedef struct CoatLobe {
 /* Albedo of the lobe as seen at a cosine to its normal; weight: as of CoatLobe. */
 TRIAD_FUNCTION float coat_albedo(global const float* albedo_tables, float factor, float roughness,
                                  float cosine, float* weight) {
-    Vec2 e = albedo_ggx(albedo_tables, sqrt(math_min(cosine, 1.0f)), roughness);
+    Vec2 e = albedo_ggx(albedo_tables, math_min(cosine, 1.0f), roughness);
     *weight = factor * fma((1.0f - e.x) / e.x, COAT_F0, 1.0f);
     return *weight * fma(COAT_F0, e.x, (1.0f - COAT_F0) * e.y);
 }

@@ -131,24 +131,33 @@ typedef struct MaterialExtensions {
 } MaterialExtensions;
 TRIAD_SIZE(MaterialExtensions, 128);
 
-/* Directional-albedo tables, one float array (host/pack/albedo_tables.h, kernels/shading/albedo.h).
- * First GGX reflection: [roughness][sqrt(mu)][2] = (E with Fresnel 1, E with Fresnel (1 - cos)^5), axes over
- * [0, 1]. Then rough dielectric bodies: [outside, inside][index][roughness][sqrt(mu)][2], node i of the index
- * axis at (n - 1) / (n + 1) = ALBEDO_GLASS_MAX (i / (ALBEDO_GLASS_SIZE - 1))^2; the last is n = 4. Then
- * what stretched GGX reflection has more than GGX of the alpha along wo:
- * [roughness][strength][azimuth of wo over [0, pi/2]][sqrt(mu)][2] as the first.
+/* Directional-albedo tables, one float array (host/pack/albedo_tables.h, kernels/shading/albedo.h). What is
+ * masked changes where sqrt(mu) is about the roughness r, and most where both are small: columns are even in
+ *   v = s (1 + r) / (s + r),  s = sqrt(mu),
+ * which is 0 along the surface and 1 along the normal, and they depend on mu / alpha alone where both are
+ * small. Two values per node: E with Fresnel factor 1, and B / E - (1 - mu)^5, where B is the same with
+ * (1 - cos)^5. First GGX reflection: [r][v]. Then rough dielectric bodies: [outside, inside][index][r][v],
+ * node i of the index axis at sqrt((n - 1) / (n + 1)) = ALBEDO_GLASS_LEAST to ALBEDO_GLASS_MOST evenly, which
+ * is n = 1 + BSDF_SAME_INDEX to 4; values of albedo_glass. Then stretched GGX reflection:
+ * [r][strength][v of x][v of y] with s = sqrt(z / hypot(x, z)) and r the root of alpha_x, and the same for y;
+ * the second value less that of GGX with the alpha along wo.
  * Then the white sheen lobe: [roughness from SHEEN_MIN_ROUGHNESS to 1][sqrt(mu)]. */
-#define ALBEDO_SIZE 32
-#define ALBEDO_GLASS_SIZE 16
-#define ALBEDO_GLASS_MAX 0.6f
+#define ALBEDO_SIZE 48
+#define ALBEDO_GLASS_INDICES 24
+#define ALBEDO_GLASS_SIZE 32
+#define ALBEDO_GLASS_LEAST 0.070535f
+#define ALBEDO_GLASS_MOST 0.774597f
 #define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
-#define ALBEDO_ANISOTROPIC_FIRST \
-    (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
-#define ALBEDO_LONG 16
-#define ALBEDO_SHORT 8
-#define ALBEDO_SHEEN_FIRST \
-    (ALBEDO_ANISOTROPIC_FIRST + ALBEDO_LONG * ALBEDO_SHORT * ALBEDO_SHORT * ALBEDO_LONG * 2)
-#define ALBEDO_FLOATS (ALBEDO_SHEEN_FIRST + ALBEDO_SIZE * ALBEDO_SIZE)
+#define ALBEDO_STRETCHED_FIRST \
+    (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_INDICES * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+#define ALBEDO_STRETCHED_ROUGHNESSES 16
+#define ALBEDO_STRETCHED_STRENGTHS 8
+#define ALBEDO_STRETCHED_SIZE 12
+#define ALBEDO_SHEEN_FIRST                                                                \
+    (ALBEDO_STRETCHED_FIRST + ALBEDO_STRETCHED_ROUGHNESSES * ALBEDO_STRETCHED_STRENGTHS * \
+                                  ALBEDO_STRETCHED_SIZE * ALBEDO_STRETCHED_SIZE * 2)
+#define ALBEDO_SHEEN_SIZE 32
+#define ALBEDO_FLOATS (ALBEDO_SHEEN_FIRST + ALBEDO_SHEEN_SIZE * ALBEDO_SHEEN_SIZE)
 /* Below it fibres would be flat. */
 #define SHEEN_MIN_ROUGHNESS 0.07f
 /* The cosine of the table's first column, in place of 0. */

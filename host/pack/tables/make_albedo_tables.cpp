@@ -1,166 +1,140 @@
-// Writes the directional-albedo tables as text, at build time. Quadrature in double over the visible normals
-// (Dupuy and Benyoub 2023), where the integrand is G2 / G1 and bounded; midpoints, half the circle by
-// symmetry.
+// Writes the directional-albedo tables as text, at build time. Layout: kernels/types/materials.h.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <thread>
+#include <vector>
 
-#include "kernels/types.h"
+#include "albedo_integrals.h"
 
+namespace triad::albedo {
 namespace {
 
-struct Pair {
-    double first = 0, second = 0;
+/// Values at the nodes of even axes over [0, 1], linear between them.
+template <class Function>
+class Table {
+  public:
+    /// The function takes a place of as many coordinates as there are axes.
+    Table(std::vector<int> sizes, Function function) : sizes_(std::move(sizes)), function_(function) {
+        int count = 1;
+        for (int size : sizes_) count *= size;
+        nodes_.resize(count);
+        in_parallel([&](int i) { nodes_[i] = function_(place(i, 0)); });
+    }
+    /// Nodes around a cell whose middle is above the mean of its corners are raised by as much: lobes are
+    /// divided by their albedo, so that what is between nodes may lose energy and not gain it.
+    Table& raise() {
+        const int corners = 1 << sizes_.size();
+        std::vector<Pair> missing(nodes_.size());
+        const auto corner = [&](int node, int k) {  // -1 beyond the table
+            int stride = 1, at = node;
+            for (std::size_t axis = sizes_.size(); axis-- > 0; stride *= sizes_[axis], node /= sizes_[axis])
+                if (k >> axis & 1) {
+                    if (node % sizes_[axis] + 1 == sizes_[axis]) return -1;
+                    at += stride;
+                }
+            return at;
+        };
+        in_parallel([&](int i) {
+            if (corner(i, corners - 1) < 0) return;
+            Pair mean;
+            for (int k = 0; k < corners; ++k) {
+                mean.first += nodes_[corner(i, k)].first / corners;
+                mean.second += nodes_[corner(i, k)].second / corners;
+            }
+            const Pair middle = function_(place(i, 0.5));
+            missing[i] = {middle.first - mean.first, middle.second - mean.second};
+        });
+        std::vector<Pair> up(nodes_.size());
+        for (int i = 0; i < int(nodes_.size()); ++i)
+            for (int k = 0; k < corners; ++k)
+                if (const int at = corner(i, k); at >= 0 && corner(i, corners - 1) >= 0) {
+                    up[at].first = std::max(up[at].first, missing[i].first);
+                    up[at].second = std::max(up[at].second, missing[i].second);
+                }
+        for (int i = 0; i < int(nodes_.size()); ++i)
+            nodes_[i].first += up[i].first, nodes_[i].second += up[i].second;
+        return *this;
+    }
+    void print() const {
+        for (Pair p : nodes_) std::printf("%.8ef, %.8ef,\n", p.first, p.second);
+    }
+
+  private:
+    std::vector<int> sizes_;
+    Function function_;
+    std::vector<Pair> nodes_;
+
+    /// Coordinates of a node, or of a place beyond it, in steps.
+    std::vector<double> place(int node, double beyond) const {
+        std::vector<double> at(sizes_.size());
+        for (std::size_t axis = sizes_.size(); axis-- > 0; node /= sizes_[axis])
+            at[axis] = (node % sizes_[axis] + beyond) / (sizes_[axis] - 1);
+        return at;
+    }
+    template <class Body>
+    void in_parallel(Body body) const {
+        const int threads = std::max(1, int(std::thread::hardware_concurrency()));
+        std::vector<std::thread> all;
+        for (int t = 0; t < threads; ++t)
+            all.emplace_back([&, t] {
+                for (int i = t; i < int(nodes_.size()); i += threads) body(i);
+            });
+        for (std::thread& thread : all) thread.join();
+    }
 };
 
-/// Reflectance of a dielectric interface and the cosine beyond it; eta = index beyond over index before.
-double fresnel(double c, double eta, double* refracted) {
-    const double sine2 = (1 - c * c) / (eta * eta);
-    *refracted = 0;
-    if (sine2 >= 1) return 1;
-    const double t = *refracted = std::sqrt(1 - sine2);
-    const double s = (c - eta * t) / (c + eta * t), p = (eta * c - t) / (eta * c + t);
-    return 0.5 * (s * s + p * p);
+/// Where alpha is 0 nothing is masked; columns are those of a small one, on which they do not depend.
+double row(double roughness) { return std::max(roughness, 0.01); }
+/// Cosine of a column.
+double cosine(double v, double roughness) {
+    const double root = v >= 1 ? 1 : roughness * v / (1 + roughness - v);
+    return std::max(root * root, 1e-7);
+}
+Pair as_node(Pair p, double mu) { return {p.first, p.second / p.first - std::pow(1 - mu, 5)}; }
+
+Pair ggx_node(const std::vector<double>& at) {
+    const double roughness = row(at[0]), mu = cosine(at[1], roughness);
+    return as_node(ggx(mu, roughness * roughness), mu);
+}
+Pair glass_node(const std::vector<double>& at, bool inside) {
+    const double z = ALBEDO_GLASS_LEAST + (double(ALBEDO_GLASS_MOST) - ALBEDO_GLASS_LEAST) * at[0];
+    const double ior = (1 + z * z) / (1 - z * z), roughness = row(at[1]);
+    return glass(cosine(at[2], roughness), roughness * roughness, inside ? 1 / ior : ior);
+}
+Pair stretched_node(const std::vector<double>& at) {
+    const double alpha = std::max(at[0] * at[0], double(BSDF_SMOOTH_ALPHA)),
+                 alpha_x = alpha + (1 - alpha) * at[1] * at[1];
+    const auto slope = [](double c) { return std::sqrt(1 / (c * c) - 1); };  // its cosine is of x and z alone
+    const double x = slope(cosine(at[2], std::sqrt(alpha_x))), y = slope(cosine(at[3], std::sqrt(alpha)));
+    const double mu = 1 / std::sqrt(1 + x * x + y * y), phi = std::atan2(y, x);
+    const double along = std::hypot(alpha_x * std::cos(phi), alpha * std::sin(phi));
+    const Pair whole = stretched(mu, phi, alpha_x, alpha), round = ggx(mu, along, 48);
+    return {whole.first, whole.second / whole.first - round.second / round.first};
 }
 
-double stretch(double xy2, double z, double alpha) { return std::sqrt(alpha * alpha * xy2 + z * z); }
-
-/// body(wo.h, h.z, reflected, transmitted) summed over visible normals with equal weight; `reflected` and
-/// `transmitted` give G2 / G1 of the mirrored direction, and of the refracted one whose z is passed.
-template <class Body>
-Pair integrate(double mu, double alpha, int steps, Body body) {
-    const double x = std::sqrt(1 - mu * mu), s_o = stretch(x * x, mu, alpha);
-    const double wx = alpha * x / s_o, wz = mu / s_o;
-    const auto masking = [&](double z) {
-        const double s_i = stretch(std::max(0.0, 1 - z * z), z, alpha);
-        return z > 0 ? z * (mu + s_o) / (z * s_o + mu * s_i) : 0.0;
-    };
-    Pair sum;
-    for (int i = 0; i < steps; ++i) {
-        const double z = (1 - (i + 0.5) / steps) * (1 + wz) - wz, r = std::sqrt((1 - z) * (1 + z));
-        for (int j = 0; j < steps; ++j) {
-            const double phi = 3.14159265358979323846 * (j + 0.5) / steps;
-            double hx = alpha * (r * std::cos(phi) + wx), hy = alpha * r * std::sin(phi), hz = z + wz;
-            const double length = std::sqrt(hx * hx + hy * hy + hz * hz);
-            hx /= length, hz /= length;
-            const double c = std::min(1.0, x * hx + mu * hz);
-            const Pair value = body(c, hz, masking);
-            sum.first += value.first, sum.second += value.second;
-        }
-    }
-    return {sum.first / (double(steps) * steps), sum.second / (double(steps) * steps)};
-}
-
-Pair ggx(double mu, double alpha) {
-    if (alpha == 0) return {1, std::pow(1 - mu, 5)};
-    return integrate(mu, alpha, 128, [&](double c, double hz, const auto& masking) {
-        const double g = masking(2 * c * hz - mu);
-        return Pair{g, g * std::pow(1 - c, 5)};
-    });
-}
-
-Pair glass(double mu, double alpha, double eta) {
-    if (alpha == 0) return {1, 1};
-    return integrate(mu, alpha, 48, [&](double c, double hz, const auto& masking) {
-        double t;
-        const double f = fresnel(c, eta, &t), reflected = masking(2 * c * hz - mu);
-        if (f >= 1) return Pair{reflected, reflected};
-        const double transmitted = masking(-((c / eta - t) * hz - mu / eta));
-        return Pair{f * reflected + (1 - f) * transmitted, transmitted};
-    });
-}
-
-/// GGX stretched to alpha_x along x, wo at the azimuth phi.
-Pair stretched(double mu, double phi, double alpha_x, double alpha_y) {
-    constexpr int steps = 32;
-    const double side = std::sqrt(1 - mu * mu), ox = side * std::cos(phi), oy = side * std::sin(phi);
-    const auto stretch_xy = [&](double x, double y, double z) {
-        return std::sqrt(alpha_x * alpha_x * x * x + alpha_y * alpha_y * y * y + z * z);
-    };
-    const double s_o = stretch_xy(ox, oy, mu), wx = alpha_x * ox / s_o, wy = alpha_y * oy / s_o,
-                 wz = mu / s_o;
-    Pair sum;
-    for (int i = 0; i < steps; ++i) {
-        const double z = (1 - (i + 0.5) / steps) * (1 + wz) - wz, r = std::sqrt((1 - z) * (1 + z));
-        for (int j = 0; j < 2 * steps; ++j) {
-            const double turn = 3.14159265358979323846 * (j + 0.5) / steps;
-            double hx = alpha_x * (r * std::cos(turn) + wx), hy = alpha_y * (r * std::sin(turn) + wy),
-                   hz = z + wz;
-            const double length = std::sqrt(hx * hx + hy * hy + hz * hz);
-            hx /= length, hy /= length, hz /= length;
-            const double c = std::min(1.0, ox * hx + oy * hy + mu * hz), iz = 2 * c * hz - mu;
-            if (iz <= 0) continue;
-            const double s_i = stretch_xy(2 * c * hx - ox, 2 * c * hy - oy, iz);
-            const double g = iz * (mu + s_o) / (iz * s_o + mu * s_i);
-            sum.first += g, sum.second += g * std::pow(1 - c, 5);
-        }
-    }
-    return {sum.first / (2.0 * steps * steps), sum.second / (2.0 * steps * steps)};
-}
-
-/// The sheen lobe of kernels/shading/sheen.h, over directions: z = t^2 resolves the rim.
-double sheen(double mu, double roughness) {
-    constexpr int steps = 96;
-    const double alpha = roughness * roughness, t = (1 - alpha) * (1 - alpha);
-    const auto mix = [t](double a, double b) { return a + (b - a) * t; };
-    const auto fit = [&](double x) {
-        return mix(21.5473, 25.3245) / (1 + mix(3.82987, 3.32435) * std::pow(x, mix(0.19823, 0.16801))) +
-               mix(-1.97760, -1.27393) * x + mix(-4.32054, -4.85967);
-    };
-    const auto lambda = [&](double c) { return std::exp(c < 0.5 ? fit(c) : 2 * fit(0.5) - fit(1 - c)); };
-    const double side = std::sqrt(1 - mu * mu);
-    double sum = 0;
-    for (int i = 0; i < steps; ++i) {
-        const double root = (i + 0.5) / steps, z = root * root, r = std::sqrt(1 - z * z),
-                     lambda_i = lambda(z);
-        for (int j = 0; j < steps; ++j) {
-            const double phi = 3.14159265358979323846 * (j + 0.5) / steps;
-            const double hx = side + r * std::cos(phi), hy = r * std::sin(phi), hz = mu + z;
-            const double sine2 = (hx * hx + hy * hy) / (hx * hx + hy * hy + hz * hz);
-            sum += std::pow(sine2, 0.5 / alpha) * 2 * root / (4 * mu * (1 + lambda(mu) + lambda_i));
-        }
-    }
-    return (2 + 1 / alpha) * sum / (double(steps) * steps);  // 2 pi of directions over the 2 pi of D
-}
-
-void print(Pair p) { std::printf("%.8ef, %.8ef,\n", p.first, p.second); }
-
-}  // namespace
-
-int main() {
-    for (int r = 0; r < ALBEDO_SIZE; ++r)
-        for (int m = 0; m < ALBEDO_SIZE; ++m) {
-            const double root = double(m) / (ALBEDO_SIZE - 1), roughness = double(r) / (ALBEDO_SIZE - 1);
-            print(ggx(root * root, roughness * roughness));
-        }
-    constexpr int n = ALBEDO_GLASS_SIZE - 1;
-    for (int inside = 0; inside < 2; ++inside)
-        for (int i = 0; i <= n; ++i)
-            for (int r = 0; r <= n; ++r)
-                for (int m = 0; m <= n; ++m) {
-                    const double z = double(ALBEDO_GLASS_MAX) * i * i / (n * n), ior = (1 + z) / (1 - z);
-                    const double root = double(m) / n, roughness = double(r) / n;
-                    print(glass(root * root, roughness * roughness, inside ? 1 / ior : ior));
-                }
-    for (int r = 0; r < ALBEDO_LONG; ++r)
-        for (int s = 0; s < ALBEDO_SHORT; ++s)
-            for (int p = 0; p < ALBEDO_SHORT; ++p)
-                for (int m = 0; m < ALBEDO_LONG; ++m) {
-                    const double mu = double(m) * m / ((ALBEDO_LONG - 1) * (ALBEDO_LONG - 1)),
-                                 phi = 0.5 * 3.14159265358979323846 * p / (ALBEDO_SHORT - 1),
-                                 strength = double(s) / (ALBEDO_SHORT - 1),
-                                 roughness = double(r) / (ALBEDO_LONG - 1);
-                    const double alpha = std::max(roughness * roughness, double(BSDF_SMOOTH_ALPHA)),
-                                 alpha_x = alpha + (1 - alpha) * strength * strength;
-                    const double along = std::hypot(alpha_x * std::cos(phi), alpha * std::sin(phi));
-                    const Pair whole = stretched(mu, phi, alpha_x, alpha),
-                               round = stretched(mu, phi, along, along);
-                    print({whole.first - round.first, whole.second - round.second});
-                }
-    for (int r = 0; r < ALBEDO_SIZE; ++r)
-        for (int m = 0; m < ALBEDO_SIZE; ++m) {
-            const double root = double(m) / (ALBEDO_SIZE - 1), t = double(r) / (ALBEDO_SIZE - 1);
+void print_sheen() {
+    for (int r = 0; r < ALBEDO_SHEEN_SIZE; ++r)
+        for (int m = 0; m < ALBEDO_SHEEN_SIZE; ++m) {
+            const double root = double(m) / (ALBEDO_SHEEN_SIZE - 1), t = double(r) / (ALBEDO_SHEEN_SIZE - 1);
             std::printf("%.8ef,\n", sheen(std::max(root * root, double(SHEEN_MIN_COSINE)),
                                           SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * t));
         }
+}
+
+}  // namespace
+}  // namespace triad::albedo
+
+int main() {
+    using namespace triad::albedo;
+    Table({ALBEDO_SIZE, ALBEDO_SIZE}, ggx_node).raise().print();
+    for (bool inside : {false, true})
+        Table({ALBEDO_GLASS_INDICES, ALBEDO_GLASS_SIZE, ALBEDO_GLASS_SIZE}, [inside](const auto& at) {
+            return glass_node(at, inside);
+        }).print();
+    Table({ALBEDO_STRETCHED_ROUGHNESSES, ALBEDO_STRETCHED_STRENGTHS, ALBEDO_STRETCHED_SIZE,
+           ALBEDO_STRETCHED_SIZE},
+          stretched_node)
+        .print();
+    print_sheen();
 }
