@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/without_details.h"
 #include "trace/node_format.h"
 
 namespace fs = std::filesystem;
@@ -74,6 +75,7 @@ Verdict ensure_checked(Device& device) {
     if (const auto kept = load_verdict(device.info(), format, path_driver_of(device))) return *kept;
     inform("First use of " + device.info().name +
            " with this driver: a few seconds to check that its answers are right.");
+    const WithoutDetails quiet;
     const Verdict verdict =
         verdict_of(run_cases(device, first_cases(), CheckLevel::quick, [](const CheckResult&) {}));
     keep_verdict(device.info(), format, verdict, path_driver_of(device));

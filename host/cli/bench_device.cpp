@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "cli/board_run.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "report/board_json.h"
 #include "report/board_page.h"
 #include "report/board_table.h"
@@ -149,9 +150,7 @@ void add_bench_device(CLI::App& bench, Exit& exit) {
                          "Devices, one after the other: a number, cpu, gpu, or part of a name, with "
                          "commas between; all: every usable one")
             ->type_name("SEL"));
-    measuring.push_back(
-        command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)")
-            ->type_name("N"));
+    measuring.push_back(add_threads(*command, o->threads));
     measuring.push_back(command->add_flag("--quick", o->is_quick, "What a minute is enough for"));
     measuring.push_back(
         command
@@ -160,16 +159,12 @@ void add_bench_device(CLI::App& bench, Exit& exit) {
                          "there is no time for is left out")
             ->check(number_within(1, 1e6))
             ->type_name("S"));
-    measuring.push_back(command->add_option("--kernels", o->kernels, "Read the kernels from this folder")
-                            ->check(CLI::ExistingDirectory)
-                            ->type_name("DIR"));
-    measuring.push_back(command->add_option("--progress", o->progress, "auto, bar, lines, json or none")
-                            ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
-                            ->type_name("STYLE"));
+    measuring.push_back(add_kernels(*command, o->kernels));
+    measuring.push_back(add_progress(*command, o->progress));
     for (CLI::Option* option : measuring) option->excludes(against);
     command->add_option("-o,--output", o->folder, "Folder for a page, index.html, and board.json")
         ->type_name("DIR");
-    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)")->type_name("FILE");
+    add_json(*command, o->json);
     command->callback([o, &exit] { exit = run(*o); });
 }
 

@@ -47,11 +47,13 @@ std::vector<NamedOptions> named_settings(const BenchErrorOptions& o) {
 class Requests {
   public:
     explicit Requests(const BenchErrorOptions& o) : scenes_(named_scenes(o)), settings_(named_settings(o)) {
-        const auto common = words("--size " + o.size + " " + o.common);
+        const std::vector<std::string> every_run = words(o.common);
         for (const NamedOptions& scene : scenes_) {
             requests_.emplace_back();
-            for (const NamedOptions& setting : settings_)
-                requests_.back().push_back(render_options(common, scene, setting));
+            for (NamedOptions setting : settings_) {  // in front: over the scene's, not over its own
+                setting.arguments.insert(setting.arguments.begin(), every_run.begin(), every_run.end());
+                requests_.back().push_back(render_options({"--size", o.size}, scene, setting));
+            }
         }
     }
 
@@ -192,7 +194,9 @@ void declare(CLI::App& command, BenchErrorOptions& o) {
                     "Like roulette=0.5,1: every setting with each of these values; several allowed")
         ->allow_extra_args(false)
         ->type_name("OPTION=V,V...");
-    command.add_option("--options", o.common, "Options of triad render for every run")->type_name("TEXT");
+    command
+        .add_option("--options", o.common, "Options of triad render for every run, over those of its scene")
+        ->type_name("TEXT");
     command.add_option("--repetitions", o.repetitions, "Runs of each setting, with a seed each (default 5)")
         ->check(CLI::Range(1, 10000))
         ->type_name("N");
@@ -208,13 +212,9 @@ void declare(CLI::App& command, BenchErrorOptions& o) {
         .add_option("-o,--output", o.folder, "Folder for report.html, its plots, report.json and runs.csv")
         ->type_name("FOLDER");
     command.add_option("--csv", o.csv, "Write the runs as CSV (-: standard output)")->type_name("FILE");
-    command.add_option("--json", o.json, "Write curves as JSON (-: standard output)")->type_name("FILE");
-    command.add_option("--kernels", o.kernels, "Read kernel source from here instead of the copy inside")
-        ->check(CLI::ExistingDirectory)
-        ->type_name("DIR");
-    command.add_option("--progress", o.progress, "Of references: auto, bar, lines, json or none")
-        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
-        ->type_name("STYLE");
+    add_json(command, o.json, "Write curves");
+    add_kernels(command, o.kernels);
+    add_progress(command, o.progress);
 }
 
 void add_bench_error(CLI::App& bench, Exit& exit) {

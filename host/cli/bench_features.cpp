@@ -6,6 +6,7 @@
 #include "base/check_outputs.h"
 #include "base/interrupt.h"
 #include "bench/feature_bench.h"
+#include "cli/option_kinds.h"
 #include "report/report.h"
 #include "trace/tune.h"
 
@@ -84,16 +85,19 @@ void add_bench_features(CLI::App& bench, Exit& exit) {
     auto o = std::make_shared<BenchFeaturesOptions>();
     CLI::App* command = bench.add_subcommand(
         "features", "What each compile-time feature costs: left out, compiled in but not used, and used");
-    command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
-    command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
+    add_device(*command, o->device);
+    add_threads(*command, o->threads);
     command->add_option("--size", o->plan.size, "Pixels across and down (default 128)")
-        ->check(CLI::Range(8, 4096));
+        ->check(CLI::Range(8, 4096))
+        ->type_name("N");
     command->add_option("--spp", o->plan.samples, "Samples per pixel and run (default 16)")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::PositiveNumber)
+        ->type_name("N");
     command->add_option("--repetitions", o->plan.repetitions, "Runs of each program (default 7)")
-        ->check(CLI::Range(1, 1000));
-    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)");
-    command->add_option("--kernels", o->kernels, "Read the kernels from this folder");
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
+    add_json(*command, o->json);
+    add_kernels(*command, o->kernels);
     command->callback([o, &exit] { exit = run(*o); });
 }
 

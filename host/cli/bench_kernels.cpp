@@ -5,6 +5,7 @@
 
 #include "base/check_outputs.h"
 #include "bench/kernel_bench.h"
+#include "cli/option_kinds.h"
 #include "report/report.h"
 
 namespace triad {
@@ -66,12 +67,14 @@ void add_bench_kernels(CLI::App& bench, Exit& exit) {
     CLI::App* command = bench.add_subcommand("kernels",
                                              "Nanoseconds of camera rays, random numbers, BSDFs, lights and "
                                              "textures, each in a kernel of its own");
-    command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
-    command->add_option("--threads", o->threads, "Compute units to use on a CPU device (default 1; 0: all)");
+    add_device(*command, o->device);
+    add_threads(*command, o->threads, "1; 0: all");
     command->add_option("--items", o->plan.items, "Evaluations of a launch (default 65536)")
-        ->check(CLI::Range(1024, 1 << 24));
+        ->check(CLI::Range(1024, 1 << 24))
+        ->type_name("N");
     command->add_option("--rounds", o->plan.rounds, "In which the kernels take turns (default 9)")
-        ->check(CLI::Range(1, 1000));
+        ->check(CLI::Range(1, 1000))
+        ->type_name("N");
     command
         ->add_option(
             "--local", o->local_sizes,
@@ -85,10 +88,11 @@ void add_bench_kernels(CLI::App& bench, Exit& exit) {
         ->add_option(
             "--run", o->run,
             "One more column: as many items one after the other in each work-item (default 256; 1: none)")
-        ->check(CLI::Range(1, 65536));
-    command->add_option("--filter", o->filter, "Only kernels with this in their names");
-    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)");
-    command->add_option("--kernels", o->kernels, "Read the kernels from this folder");
+        ->check(CLI::Range(1, 65536))
+        ->type_name("N");
+    command->add_option("--filter", o->filter, "Only kernels with this in their names")->type_name("TEXT");
+    add_json(*command, o->json);
+    add_kernels(*command, o->kernels);
     command->callback([o, &exit] { exit = run(*o); });
 }
 

@@ -214,12 +214,12 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
         ->check(CLI::Range(3, 64))
         ->type_name("N");
     command->add_option("--seed", o->seed, "Of the first repetition (default 1)")->type_name("N");
-    command->add_option("--device", o->device, "Number, cpu, gpu, or part of a name")->type_name("SEL");
+    add_device(*command, o->device);
     command
         ->add_option("-o,--output", o->folder, "Folder for report.html, its plots, rows.csv and report.json")
         ->type_name("FOLDER");
     command->add_option("--csv", o->csv, "All rows (-: standard output)")->type_name("FILE");
-    command->add_option("--json", o->json, "All rows (-: standard output)")->type_name("FILE");
+    add_json(*command, o->json);
     command->callback([o, &exit] { exit = run(*o); });
 }
 

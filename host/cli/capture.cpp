@@ -55,10 +55,14 @@ void add_capture(CLI::App& app, Exit& exit) {
     // What ends a render before its samples are taken, or asks about one pixel.
     for (const char* other : {"--error", "--time", "--adaptive", "--pixel", "--spp"})
         command->remove_option(command->get_option(other));
-    command->add_option("-o,--output", o->output, "The capture")->required()->type_name("FILE");
+    command->add_option("-o,--output", o->output, "The capture")
+        ->required()
+        ->type_name("FILE")
+        ->group("Output");
     command->add_option("--spp", o->request.spp, "Samples per pixel (default 4)")
         ->check(CLI::Range(std::uint64_t(1), most_samples))
-        ->type_name("N");
+        ->type_name("N")
+        ->group(command->get_option("--seed")->get_group());
     command->callback([o, &exit] { exit = run(*o); });
 }
 

@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "check/verdict.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "report/report.h"
 #include "trace/node_format.h"
 #include "trace/tune.h"
@@ -22,7 +23,14 @@ struct CheckOptions {
     std::optional<BvhFormat> format;
     std::optional<PathDriverKind> path_driver;
     CheckLevel level = CheckLevel::standard;
+    bool list = false;
 };
+
+/// Every id that --case takes. Asks no device.
+Exit print_cases() {
+    for (const CheckCase& each : cases_of(CheckLevel::full)) std::printf("%s\n", each.name().c_str());
+    return Exit::done;
+}
 
 void print(const CheckResult& r) {
     if (!r.ok)
@@ -93,22 +101,27 @@ Exit run(const CheckOptions& o) {
 void add_check(CLI::App& app, Exit& exit) {
     auto o = std::make_shared<CheckOptions>();
     CLI::App* command = app.add_subcommand("check", "Prove a device and its driver by known answers");
-    command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
-    command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
+    add_device(*command, o->device);
+    add_threads(*command, o->threads);
     add_format(*command, o->format);
     add_path_driver(*command, o->path_driver);
-    CLI::App* level = command->add_option_group("level")->require_option(0, 1);
+    std::vector<CLI::Option*> levels;
     const auto at = [&](const char* name, CheckLevel value, const char* words) {
-        level->add_flag_callback(
+        CLI::Option* level = command->add_flag_callback(
             name, [o, value] { o->level = value; }, words);
+        for (CLI::Option* other : levels) level->excludes(other);
+        levels.push_back(level);
     };
     at("--quick", CheckLevel::quick, "About 10 s instead of a minute");
     at("--full", CheckLevel::full, "Every case with all its work");
     at("--tiny", CheckLevel::tiny, "The quick cases with a thousandth of the work: for simulators");
-    command->add_option("--case", o->only, "Only the cases of these ids, like C1 or D4")->delimiter(',');
-    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)");
-    command->add_option("--kernels", o->kernels, "Read the kernels from this folder");
-    command->callback([o, &exit] { exit = run(*o); });
+    command->add_option("--case", o->only, "Only the cases of these ids, like C1 or D4; --list prints them")
+        ->delimiter(',')
+        ->type_name("ID[,...]");
+    command->add_flag("--list", o->list, "Print the cases, each with what it asks, and end");
+    add_json(*command, o->json);
+    add_kernels(*command, o->kernels);
+    command->callback([o, &exit] { exit = o->list ? print_cases() : run(*o); });
 }
 
 }  // namespace triad

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "base/colour.h"
@@ -12,6 +13,7 @@
 #include "base/memory_limit.h"
 #include "bvh/bvh.h"
 #include "cli/option_kinds.h"
+#include "cli/option_text.h"
 #include "scene/limits.h"
 #include "trace/path_driver.h"
 
@@ -34,31 +36,27 @@ std::optional<T> number(std::string_view text) {
 }  // namespace
 
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format) {
-    const auto parse = [&format](const std::string& name) {
-        format = find_bvh_format(name);
-        if (!format) bad("--format", name, "bvh8 or bvh4");
-    };
-    return command
-        .add_option_function<std::string>("--format", parse,
-                                          "Nodes that rays walk: bvh8 (eight boxes at once: CPUs) or bvh4 "
-                                          "(small and scalar: GPUs). Pictures are "
-                                          "the same bit for bit; default: what suits the device")
-        ->type_name("NAME");
+    return add_parsed(
+        command, "--format", "bvh8|bvh4",
+        "Nodes that rays walk: eight boxes at once (CPUs), or small and scalar ones (GPUs). Pictures "
+        "are the same bit for bit (default: what suits the device)",
+        [&format](const std::string& name) {
+            format = find_bvh_format(name);
+            if (!format) bad("--format", name, "bvh8 or bvh4");
+        });
 }
 
 CLI::Option* add_path_driver(CLI::App& command, std::optional<PathDriverKind>& driver) {
-    const auto parse = [&driver](const std::string& name) {
-        driver = find_path_driver(name);
-        if (!driver && name != "auto") bad("--driver", name, "auto, mega, wave or wave-stages");
-    };
-    return command
-        .add_option_function<std::string>(
-            "--driver", parse,
-            "How paths are followed: mega (each to its end), wave (pools of paths stage by stage, in one "
-            "launch: CPUs), wave-stages (a launch per stage: GPUs) or auto (what triad tune found fastest on "
-            "the device; where it was not run mega, and wave-stages on GPUs). Pictures are the same bit for "
-            "bit")
-        ->type_name("NAME");
+    return add_parsed(
+        command, "--driver", "auto|mega|wave|wave-stages",
+        "How paths are followed: mega: each to its end; wave: pools of paths stage by stage, in one "
+        "launch (CPUs); wave-stages: a launch per stage (GPUs); auto, the default: what triad tune "
+        "found fastest on the device, and where it was not run mega, on GPUs wave-stages. Pictures "
+        "are the same bit for bit",
+        [&driver](const std::string& name) {
+            driver = find_path_driver(name);
+            if (!driver && name != "auto") bad("--driver", name, "auto, mega, wave or wave-stages");
+        });
 }
 
 CLI::Option* add_max_texture(CLI::App& command, std::optional<unsigned>& texels) {
@@ -79,22 +77,27 @@ namespace {
 void add_common(CLI::App& command) {
     for (CLI::App* sub : command.get_subcommands(nullptr))
         if (!sub->get_name().empty()) add_common(*sub);  // the others are groups of options
-    command.add_flag_callback(
-        "-q,--quiet", [] { set_log_level(0); }, "Errors only");
-    command.add_flag_callback(
-        "-v,--verbose", [] { set_log_level(2); }, "Say more");
+    const char* const group = "Common";
     command
-        .add_option_function<std::string>(
-            "--max-memory",
-            [](const std::string& text) { set_memory_limit(parse_bytes("--max-memory", text)); },
-            "Take no more than this on host and devices together, like 4G (default: half of the machine's)")
-        ->type_name("SIZE");
-    command.set_help_flag("-h,--help", "Show this help");
+        .add_flag_callback(
+            "-q,--quiet", [] { set_log_level(0); }, "Errors only")
+        ->group(group);
+    command
+        .add_flag_callback(
+            "-v,--verbose", [] { set_log_level(2); }, "Say more")
+        ->group(group);
+    add_parsed(
+        command, "--max-memory", "SIZE",
+        "Take no more than this on host and devices together, like 4G (default: half of the machine's)",
+        [](const std::string& text) { set_memory_limit(parse_bytes("--max-memory", text)); })
+        ->group(group);
+    command.set_help_flag("-h,--help", "Show this help")->group(group);
 }
 
 }  // namespace
 
 void add_commands(CLI::App& app, Exit& exit) {
+    app.formatter(std::make_shared<HelpFormatter>());
     add_render(app, exit);
     add_view(app, exit);
     add_info(app, exit);
@@ -108,8 +111,12 @@ void add_commands(CLI::App& app, Exit& exit) {
     add_bench(app, exit);
     add_profile(app, exit);
     add_capture(app, exit);
+    add_help(app);
+    add_manual(app);
+    add_completion(app);
     for (CLI::App* command : app.get_subcommands(nullptr)) add_common(*command);
     refuse_empty_values(app);
+    hide_ranges(app);
 }
 
 CLI::Validator number_within(double lo, double hi) {

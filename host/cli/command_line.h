@@ -29,6 +29,10 @@ void add_bench(CLI::App& app, Exit& exit);
 void add_profile(CLI::App& app, Exit& exit);
 void add_capture(CLI::App& app, Exit& exit);
 void add_view(CLI::App& app, Exit& exit);
+/// What tells of the program that `app` is.
+void add_help(CLI::App& app);
+void add_manual(CLI::App& app);
+void add_completion(CLI::App& app);
 
 /// --format NAME
 CLI::Option* add_format(CLI::App& command, std::optional<BvhFormat>& format);

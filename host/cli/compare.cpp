@@ -11,6 +11,7 @@
 #include "cli/command_line.h"
 #include "cli/compare_perceived.h"
 #include "cli/error_map.h"
+#include "cli/option_kinds.h"
 #include "io/io.h"
 #include "metric/flip.h"
 #include "metric/image_metrics.h"
@@ -176,11 +177,8 @@ void add_compare(CLI::App& app, Exit& exit) {
     command->add_option("REFERENCE", o->reference, "The same size; of perceived: larger")
         ->required()
         ->type_name("");
-    command->add_option("--metric", o->metrics, "rmse, relmse, mae, psnr, flip (default: these); perceived")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(CLI::IsMember({"rmse", "relmse", "mae", "psnr", "flip", "perceived"}))
-        ->type_name("LIST");
+    add_word_list(*command, "--metric", "What is measured (default: all but perceived)",
+                  {"rmse", "relmse", "mae", "psnr", "flip", "perceived"}, o->metrics);
     command->add_option("--max-rmse", o->max_rmse, "Exit 7 above this")
         ->check(number_within(0, 1e30))
         ->type_name("X");
@@ -204,8 +202,7 @@ void add_compare(CLI::App& app, Exit& exit) {
         ->allow_extra_args(false)
         ->type_name("FILE");
     declare_perceived(*command, o->perceived);
-    command->add_option("--json", o->json, "Write the numbers as JSON (-: standard output)")
-        ->type_name("FILE");
+    add_json(*command, o->json, "Write the numbers");
     command->callback([o, &exit] { exit = run(*o); });
 }
 

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/error_map.h"
+#include "cli/option_kinds.h"
 #include "panel/perceived.h"
 #include "session/output.h"
 #include "session/panel_file.h"
@@ -105,17 +106,14 @@ RgbImage display_of(const std::string& path, const Picture& picture) {
 void declare_perceived(CLI::App& command, PerceivedOptions& o) {
     const char* const group = "Perceived error";
     command.add_option("--panel", o.panel, "The display: a name of triad panel, or a panel.json")
-        ->type_name("PANEL")
+        ->type_name("NAME|FILE.json")
         ->group(group);
     command.add_option("--ppd", o.ppd, "Pixels per degree (default: the panel's, else 45)")
         ->check(number_within(1, 1000))
         ->type_name("X")
         ->group(group);
-    command.add_option("--eye", o.eyes, "scielab, sharp, flip (default: all; the first decides)")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(CLI::IsMember({"scielab", "sharp", "flip"}))
-        ->type_name("LIST")
+    add_word_list(command, "--eye", "Models of an eye (default: all; the first decides)",
+                  {"scielab", "sharp", "flip"}, o.eyes)
         ->group(group);
     command.add_option("--max-perceived", o.limit, "Exit 7 above this")
         ->check(number_within(0, 1e30))

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "check/verdict.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "device/device.h"
 #include "report/report.h"
 #include "trace/node_format.h"
@@ -95,7 +96,7 @@ void add_devices(CLI::App& app, Exit& exit) {
     auto json = std::make_shared<std::string>();
     CLI::App* command =
         app.add_subcommand("devices", "List OpenCL devices, what each can do, and which one is chosen");
-    command->add_option("--json", *json, "Write the list as JSON (-: standard output)");
+    add_json(*command, *json, "Write the list");
     command->callback([json, &exit] { exit = run(*json); });
 }
 

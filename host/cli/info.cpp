@@ -11,6 +11,7 @@
 #include "cli/command_line.h"
 #include "cli/info_contents.h"
 #include "cli/info_film.h"
+#include "cli/option_kinds.h"
 #include "io/gltf_contents.h"
 #include "io/io.h"
 #include "pack/texture_levels.h"
@@ -163,7 +164,7 @@ void add_info(CLI::App& app, Exit& exit) {
     add_max_texture(*command, o->max_texture);
     command->add_flag("--strict", o->strict,
                       "Damaged data of the scene (images, normals and the like) are exit code 2");
-    command->add_option("--json", o->json, "Write it as JSON (-: standard output)")->type_name("FILE");
+    add_json(*command, o->json, "Write it");
     command->callback([o, &exit] {
         check_outputs({o->json}, {o->path});
         try {

@@ -33,15 +33,14 @@ std::string hint(const CLI::App& app) {
 int run(int argc, char** argv) {
     CLI::App app("Triad path-traces glTF scenes on any OpenCL device.", "triad");
     Exit exit = Exit::done;
-    app.set_version_flag("--version", "triad " TRIAD_VERSION);
+    app.set_version_flag("-V,--version", "triad " TRIAD_VERSION, "Print the version");
     app.set_help_flag("-h,--help", "Show this help, or that of a command");
-    app.get_formatter()->column_width(34);
-    app.footer(
-        "Exit codes: 0 done, 1 usage, 2 scene or file, 3 unsupported, 4 memory, 5 device, 6 incomplete, 7 "
-        "comparison failed,\n"
-        "75 interrupted and saved. A first picture: triad render; your own: triad render SCENE.glb -o "
-        "OUT.png");
+    const std::string exits =
+        "Exit codes: 0 done, 1 usage, 2 scene or file, 3 unsupported, 4 memory, 5 device, 6 incomplete,\n"
+        "7 comparison failed, 70 a defect of Triad, 75 interrupted and saved.";
+    app.footer(exits);
     add_commands(app, exit);
+    app.footer(exits + "\nA first picture: triad render; your own: triad render SCENE.glb -o OUT.png");
     app.require_subcommand(0, 1);
     try {
         app.parse(argc, argv);

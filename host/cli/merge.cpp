@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "report/report.h"
 #include "session/metadata.h"
 #include "session/output.h"
@@ -69,7 +70,7 @@ void add_merge(CLI::App& app, Exit& exit) {
                      "Exit 6 and name the holes unless samples 0 to N are all there")
         ->check(CLI::PositiveNumber)
         ->type_name("N");
-    command->add_option("--json", o->json, "Write what was merged as JSON")->type_name("FILE");
+    add_json(*command, o->json, "Write what was merged");
     command->callback([o, &exit] { exit = run(*o); });
 }
 

@@ -32,42 +32,35 @@ void declare_style(CLI::App& command, OutputStyle& style) {
         ->check(number_within(-64, 64))
         ->type_name("EV")
         ->group(output_group);
-    command.add_option("--tonemap", style.tone_map, "none, aces, agx or khronos (the default: PBR Neutral)")
-        ->check(CLI::IsMember({"none", "aces", "agx", "khronos"}))
-        ->type_name("NAME")
+    add_word(command, "--tonemap", "Of tone-mapped outputs (default khronos: its PBR Neutral)",
+             {"none", "aces", "agx", "khronos"}, style.tone_map)
         ->group(output_group);
-    command.add_option("--bits", style.bits, "Of PNG outputs, 8 or 16 (default 8)")
+    command.add_option("--bits", style.bits, "Of PNG outputs (default 8)")
         ->check(CLI::IsMember({8, 16}))
-        ->type_name("N")
+        ->type_name("8|16")
         ->group(output_group);
     add_parsed(
-        command, "--denoise", "NAME",
-        "off (the default), own (on the device, guided by what the camera sees first) or oidn (Intel's Open "
-        "Image Denoise, where it is installed)",
+        command, "--denoise", "off|own|oidn",
+        "Less noise than the samples have. off: the default; own: on the device, guided by what the camera "
+        "sees first; oidn: Intel's Open Image Denoise, where it is installed",
         [&style](const std::string& v) { style.denoise = denoiser_named(v); })
         ->group(output_group);
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
 }
 
 void declare_outputs(CLI::App& command, RenderRequest& o) {
-    declare_frames(command, o);
     command
         .add_option("-o,--output", o.outputs,
                     "Picture: .exr, .hdr (linear), .png, .jpg (tone-mapped), - (PNG on standard output); "
-                    "several allowed")
+                    "several allowed. %s in a name is the scene's, as several scenes need it")
         ->type_name("FILE")
         ->allow_extra_args(false)
         ->group(output_group);
     declare_style(command, o.style);
-    command
-        .add_option("--aov", o.aovs,
-                    "Layers for EXR files: albedo, normal, position, depth, samples, variance, error, or all")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(
-            CLI::IsMember({"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}))
-        ->type_name("LIST")
+    add_word_list(command, "--aov", "Layers for EXR files",
+                  {"albedo", "normal", "position", "depth", "samples", "variance", "error", "all"}, o.aovs)
         ->group(output_group);
+    declare_frames(command, o);
     command
         .add_option("--film", o.film_path,
                     "Also write the film, now and then while rendering: for --resume, triad merge and triad "
@@ -88,13 +81,8 @@ void declare_outputs(CLI::App& command, RenderRequest& o) {
         ->check(number_within(0, 1e9))
         ->type_name("S")
         ->group(output_group);
-    command.add_option("--json", o.json_path, "Write times, rays and errors as JSON")
-        ->type_name("FILE")
-        ->group(output_group);
-    command.add_option("--progress", o.progress, "On standard error: auto, bar, lines, json or none")
-        ->check(CLI::IsMember({"auto", "bar", "lines", "json", "none"}))
-        ->type_name("STYLE")
-        ->group(output_group);
+    add_json(command, o.json_path, "Write times, rays and errors")->group(output_group);
+    add_progress(command, o.progress)->group(output_group);
 }
 
 }  // namespace triad

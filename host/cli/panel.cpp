@@ -145,11 +145,8 @@ void add_panel(CLI::App& app, Exit& exit) {
         ->type_name("X");
     add_parsed(*command, "--bins", "BXxBY", "Bins per pixel of the film (default 3x3)",
                [o](const std::string& v) { o->bins = parse_size("--bins", v); });
-    command
-        ->add_option("--filter", o->filter,
-                     "triad, separable, cross-colour, displaced or platt (default triad)")
-        ->check(CLI::IsMember({"triad", "separable", "cross-colour", "displaced", "platt"}))
-        ->type_name("NAME");
+    add_word(*command, "--filter", "How taps are designed (default triad)",
+             {"triad", "separable", "cross-colour", "displaced", "platt"}, o->filter);
     command
         ->add_option("-o,--output", o->output, "Draw the emitters, magnified: white, or the picture's drives")
         ->type_name("FILE.png");
@@ -167,7 +164,7 @@ void add_panel(CLI::App& app, Exit& exit) {
         ->type_name("FILE.png");
     command->add_option("--write", o->file, "Write the panel as panel.json, to be changed")
         ->type_name("FILE");
-    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)")->type_name("FILE");
+    add_json(*command, o->json);
     command->callback([o, &exit] { exit = run(*o); });
 }
 

@@ -107,6 +107,10 @@ void add_profile(CLI::App& app, Exit& exit) {
     CLI::App* command =
         app.add_subcommand("profile", "Where the time of a render goes: kernels, rays, bytes, roofline");
     declare_workload(*command, o->request);
+    command->get_option("--spp")->description("Samples per pixel of every run (default 8)");
+    // What a profile refuses, with a sentence.
+    for (const char* refused : {"--error", "--time", "--samples", "--pixel"})
+        command->get_option(refused)->group("");
     const char* const group = "Output";
     command
         ->add_option("--runs", o->runs,
@@ -117,9 +121,7 @@ void add_profile(CLI::App& app, Exit& exit) {
     command->add_option("-o,--output", o->folder, "Write a page, index.html, into this folder")
         ->type_name("DIR")
         ->group(group);
-    command->add_option("--json", o->json, "Write the rows as JSON (-: standard output)")
-        ->type_name("FILE")
-        ->group(group);
+    add_json(*command, o->json)->group(group);
     command->add_option("--trace", o->trace, "Write the last run as a time line for Perfetto")
         ->type_name("FILE")
         ->group(group);

@@ -12,6 +12,7 @@
 #include "cli/frames.h"
 #include "cli/render_options.h"
 #include "cli/resume.h"
+#include "cli/scenes.h"
 #include "io/io.h"
 #include "kernels/types.h"
 #include "report/pixel_table.h"
@@ -90,8 +91,9 @@ ProgressState shown(const Progress& p, const RenderGoal& goal) {
 }
 
 /// `to_go_on`: the command for it, said when the render stops before its goal; empty: there is none.
-Exit run(const RenderRequest& request, const std::string& to_go_on, ProgressDisplay& display) {
-    RenderSession session(request);
+Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& to_go_on,
+         ProgressDisplay& display) {
+    RenderSession session(request, &devices);
     describe(session);
     if (session.request().pixel) {
         tell_pixel(session);
@@ -113,6 +115,8 @@ Exit run(const RenderRequest& request, const std::string& to_go_on, ProgressDisp
         if (!is_film(session.request().film_path)) throw;
         throw Error(error.exit(), std::string(error.what()) + "\nTo go on: " + to_go_on);
     }
+    for (const DeviceWork& work : outcome.result.devices)
+        if (!work.failure.empty()) devices.reset();  // another picture opens anew what still can be
     const Film& film = outcome.film;
     detail("The film has " + bytes_text(film_bytes(film)) + ", " + std::to_string(film.bins()) +
            (film.bins() == 1 ? " bin per pixel" : " bins per pixel"));
@@ -138,11 +142,11 @@ Exit run(const RenderRequest& request, const std::string& to_go_on, ProgressDisp
 }
 
 /// With its phases shown, the last of which says how it ended.
-Exit run(const RenderRequest& request, const std::string& to_go_on) {
+Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& to_go_on) {
     ProgressDisplay display(progress_style(request.progress));
     display.show_phases();
     try {
-        const Exit exit = run(request, to_go_on, display);
+        const Exit exit = run(request, devices, to_go_on, display);
         display.end(int(exit));
         return exit;
     } catch (const Error& error) {
@@ -151,14 +155,16 @@ Exit run(const RenderRequest& request, const std::string& to_go_on) {
     }
 }
 
-Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, const std::string& to_go_on) {
-    if (request.resume_path.empty()) return run(request, to_go_on);
+Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, OpenDevices& devices,
+                    const std::string& to_go_on) {
+    if (request.resume_path.empty()) return run(request, devices, to_go_on);
     std::string nothing_to_do;
     RenderRequest whole = resumed(command, request, nothing_to_do);
-    whole.outputs = request.outputs, whole.film_path = request.film_path;  // numbered where it is a frame
+    whole.outputs = request.outputs,
+    whole.film_path = request.film_path;  // numbered where it is a frame, named after its scene
     whole.json_path = request.json_path, whole.resume_path = request.resume_path;
     whole.frames.reset();
-    if (nothing_to_do.empty()) return run(whole, to_go_on);
+    if (nothing_to_do.empty()) return run(whole, devices, to_go_on);
     FileLock::clear(request.resume_path);  // of a process that was killed when it was done
     inform(nothing_to_do);
     return Exit::done;
@@ -167,30 +173,44 @@ Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, const
 Exit render_frames(const CLI::App& command, const RenderRequest& all) {
     RenderRequest checked = all;
     complete(checked);
+    OpenDevices devices;
     for (std::uint64_t frame = all.frames->begin; frame < all.frames->end; ++frame) {
         const RenderRequest one = frame_of(all, frame);
         inform(format("Frame %llu, at %.6g s", static_cast<unsigned long long>(frame), one.pose_time));
-        if (const Exit exit = begin_or_go_on(command, one, command_that_goes_on(command, all, frame));
+        if (const Exit exit =
+                begin_or_go_on(command, one, devices, command_that_goes_on(command, all, frame));
             exit != Exit::done)
             return exit;
     }
     return Exit::done;
 }
 
-Exit render(const CLI::App& command, RenderRequest request) {
+Exit render(const CLI::App& command, RenderRequest request, const std::vector<std::string>& scenes) {
     request.words = words_of_picture(command);
+    OpenDevices devices;
+    if (scenes.size() > 1)
+        return for_each_scene(command, request, scenes,
+                              [&](const RenderRequest& one, const std::string& to_go_on) {
+                                  return begin_or_go_on(command, one, devices, to_go_on);
+                              });
+    request = scene_of(request, scenes.empty() ? "" : scenes.front());
     if (request.frames) return render_frames(command, request);
     const std::string& film = request.film_path.empty() ? request.resume_path : request.film_path;
-    return begin_or_go_on(command, request, film.empty() ? "" : command_that_goes_on(command, film));
+    return begin_or_go_on(command, request, devices, film.empty() ? "" : command_that_goes_on(command, film));
 }
 
 }  // namespace
 
 void add_render(CLI::App& app, Exit& exit) {
     auto o = std::make_shared<RenderRequest>();
-    CLI::App* command = app.add_subcommand("render", "Render a scene; without one the built-in scene");
+    auto scenes = std::make_shared<std::vector<std::string>>();
+    CLI::App* command =
+        app.add_subcommand("render", "Render a scene, or several; without one the built-in scene");
     declare(*command, *o);
-    command->callback([o, command, &exit] { exit = render(*command, *o); });
+    command->remove_option(command->get_option("SCENE"));
+    command->add_option("SCENE", *scenes, "glTF files, .gltf or .glb (default: the built-in scene)")
+        ->type_name("");
+    command->callback([o, scenes, command, &exit] { exit = render(*command, *o, *scenes); });
 }
 
 }  // namespace triad

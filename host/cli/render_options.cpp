@@ -15,6 +15,8 @@
 namespace triad {
 namespace {
 
+const char* const samples_group = "Samples";
+const char* const paths_group = "Paths and photons";
 const char* const view_group = "View";
 const char* const light_group = "Light and background";
 const char* const machine_group = "Machine";
@@ -25,44 +27,48 @@ void declare_goals(CLI::App& command, RenderRequest& o) {
                     "Samples per pixel (default 64; with --error or --time no limit). Of --spp, --error and "
                     "--time, what is reached first ends the render")
         ->check(CLI::Range(std::uint64_t(1), most_samples))
-        ->type_name("N");
+        ->type_name("N")
+        ->group(samples_group);
     command.add_option("--error", o.error, "Stop when the estimated relMSE of the picture is this low")
         ->check(number_within(1e-30, 1e30))
-        ->type_name("E");
+        ->type_name("E")
+        ->group(samples_group);
     command
         .add_option("--time", o.time,
                     "Stop after so many seconds of rendering (loading and compiling not counted)")
         ->check(number_within(1e-6, 1e9))
-        ->type_name("S");
+        ->type_name("S")
+        ->group(samples_group);
     add_switch(command, "--adaptive",
-               "Send samples where they lower the error most (default on with --error or --time)",
-               o.adaptive);
+               "Send samples where they lower the error most (default on with --error or --time)", o.adaptive)
+        ->group(samples_group);
 }
 
 void declare_paths(CLI::App& command, RenderRequest& o) {
-    command.add_option("--seed", o.seed, "Of the random numbers (default 0)")->type_name("N");
     command
         .add_option("--max-depth", o.max_depth,
                     "Longest path in edges: 1 emitters only, 2 direct light (default 0: no limit)")
-        ->type_name("N");
+        ->type_name("N")
+        ->group(paths_group);
     command
         .add_option("--roulette", o.roulette,
                     "Paths that carry less than this are ended in proportion (default 0.4: least error for "
-                    "its rays; 1: "
-                    "most samples)")
+                    "its rays; 1: most samples)")
         ->check(number_within(0.01, 10))
-        ->type_name("T");
+        ->type_name("T")
+        ->group(paths_group);
     add_choice<Integrator>(
-        command, "--integrator", "NAME",
-        "auto (the default: photons where something casts the light of a small source onto other "
-        "surfaces), path (paths alone), photons (from every light), light (photons that the camera sees "
-        "directly, paths for all else) or photon-map (the classic method)",
+        command, "--integrator",
+        "Who brings light through mirrors and glass. auto, the default: photons where something casts the "
+        "light of a small source onto other surfaces; path: paths alone; photons: from every light; light: "
+        "photons that the camera sees directly, paths for all else; photon-map: the classic method",
         {{"auto", Integrator::automatic},
          {"path", Integrator::path},
          {"photons", Integrator::photons},
          {"light", Integrator::light},
          {"photon-map", Integrator::photon_map}},
-        o.integrator);
+        o.integrator)
+        ->group(paths_group);
 }
 
 void declare_photons(CLI::App& command, RenderRequest& o) {
@@ -72,29 +78,39 @@ void declare_photons(CLI::App& command, RenderRequest& o) {
             "Photons with every sample of the picture (default: one for each pixel; auto: as few as a small "
             "picture shows to be best); of photon-map: in all (default: a million)")
         ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
-        ->type_name("N");
+        ->type_name("N")
+        ->group(paths_group);
     command
         .add_option(
             "--photon-radius", o.photon_radius,
             "In which photons are gathered, in scene units: of the first sample, after which it shrinks, "
             "or of photon-map (default: chosen by the scene)")
         ->check(number_within(1e-12, 1e12))
-        ->type_name("R");
+        ->type_name("R")
+        ->group(paths_group);
     add_switch(command, "--photon-aim",
-               "Aim photons at what mirrors and refracts (default on; off: to compare)", o.aim_photons);
+               "Aim photons at what mirrors and refracts (default on; off: to compare)", o.aim_photons)
+        ->group(paths_group);
     add_switch(command, "--final-gather",
-               "With photon-map: bounce once before the map is looked up (default on)", o.final_gather);
+               "With photon-map: bounce once before the map is looked up (default on)", o.final_gather)
+        ->group(paths_group);
 }
 
 void declare_sampler(CLI::App& command, RenderRequest& o) {
+    command.add_option("--seed", o.seed, "Of the random numbers (default 0)")
+        ->type_name("N")
+        ->group(samples_group);
     add_choice<bool>(
-        command, "--sampler", "NAME",
-        "sobol (the default: Sobol's sequence, scrambled), or independent: every sample for itself",
-        {{"sobol", false}, {"independent", true}}, o.independent);
+        command, "--sampler",
+        "Where random numbers come from. sobol, the default: Sobol's sequence, scrambled; independent: every "
+        "sample for itself",
+        {{"sobol", false}, {"independent", true}}, o.independent)
+        ->group(samples_group);
     add_switch(command, "--texture-levels",
                "Average colours of textures over what a sample stands for, which shrinks with every sample "
                "(default on; off: the texels of the images, to compare)",
-               o.texture_levels);
+               o.texture_levels)
+        ->group(samples_group);
     add_parsed(command, "--samples", "A:B|share:I/K",
                "Only this half-open range of sample indices, or the I-th (from 0) of K equal parts of --spp, "
                "for triad merge",
@@ -103,7 +119,8 @@ void declare_sampler(CLI::App& command, RenderRequest& o) {
                        o.share = parse_share("--samples", v);
                    else
                        o.samples = parse_range("--samples", v);
-               });
+               })
+        ->group(samples_group);
 }
 
 void declare_picture(CLI::App& command, RenderRequest& o) {
@@ -178,16 +195,15 @@ void declare_camera(CLI::App& command, RenderRequest& o) {
 }
 
 void declare_light(CLI::App& command, RenderRequest& o) {
-    add_choice<Spectral>(
-        command, "--spectral", "auto|off|full|classic",
-        "auto (the default): a path has three wavelengths from the first body on that disperses; off: RGB; "
-        "full: four wavelengths per path; "
-        "classic: one wavelength from the camera on",
-        {{"auto", Spectral::automatic},
-         {"off", Spectral::off},
-         {"full", Spectral::full},
-         {"classic", Spectral::classic}},
-        o.spectral)
+    add_choice<Spectral>(command, "--spectral",
+                         "Wavelengths of paths. auto, the default: a path has three wavelengths from the "
+                         "first body on that disperses; off: RGB; "
+                         "full: four per path; classic: one from the camera on",
+                         {{"auto", Spectral::automatic},
+                          {"off", Spectral::off},
+                          {"full", Spectral::full},
+                          {"classic", Spectral::classic}},
+                         o.spectral)
         ->group(light_group);
     command
         .add_option("--glass", o.glass,
@@ -246,11 +262,7 @@ void declare_machine(CLI::App& command, RenderRequest& o) {
     add_path_driver(command, o.path_driver)->group(machine_group);
     command.add_flag("--force", o.force, "Render even on a device that triad check found wrong")
         ->group(machine_group);
-    command
-        .add_option("--kernels", o.kernels_path, "Read kernel source from here instead of the copy inside")
-        ->check(CLI::ExistingDirectory)
-        ->type_name("DIR")
-        ->group(machine_group);
+    add_kernels(command, o.kernels_path)->group(machine_group);
 }
 
 }  // namespace
@@ -258,24 +270,21 @@ void declare_machine(CLI::App& command, RenderRequest& o) {
 void declare_workload(CLI::App& command, RenderRequest& o) {
     command.add_option("SCENE", o.scene_path, "glTF file, .gltf or .glb (default: the built-in scene)")
         ->type_name("");
-    command.add_flag("--strict", o.strict,
-                     "Damaged data of the scene (images, normals and the like) end it with exit code 2");
-    add_max_texture(command, o.max_texture);
     declare_goals(command, o);
-    declare_paths(command, o);
-    declare_photons(command, o);
     declare_sampler(command, o);
-    declare_scene(command, o);
     declare_picture(command, o);
     declare_camera(command, o);
+    declare_scene(command, o);
     declare_light(command, o);
+    declare_paths(command, o);
+    declare_photons(command, o);
     declare(command, o.reconstruct);
     declare_machine(command, o);
 }
 
 void declare(CLI::App& command, RenderRequest& o) {
-    declare_workload(command, o);
     declare_outputs(command, o);
+    declare_workload(command, o);
 }
 
 }  // namespace triad

@@ -125,8 +125,7 @@ void add_resolve(CLI::App& app, Exit& exit) {
     add_parsed(*command, "--background", "#RRGGBB", "Put this colour behind what is transparent",
                [o](const std::string& v) { o->style.background = parse_colour("--background", v); })
         ->group("Output");
-    command->add_option("--device", o->device, "Number, cpu, gpu, or part of a name (see triad devices)")
-        ->type_name("SEL");
+    add_device(*command, o->device)->group("Machine");
     command->callback([o, command, &exit] {
         o->toned = command->count("--exposure") + command->count("--tonemap") > 0;
         exit = run(*o);

@@ -36,14 +36,15 @@ std::string name_in(const std::string& word) {
 
 template <class Wanted>
 Words words_of(const CLI::App& command, const Wanted& wanted) {
-    Words words;
+    Words scenes, words;
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_positional() ? "" : option->get_name();
         if (option->count() == 0 || !wanted(name)) continue;
         for (const std::string& value : option->results())
-            words.push_back(name.empty() ? value : name + "=" + value);
+            name.empty() ? scenes.push_back(value) : words.push_back(name + "=" + value);
     }
-    return words;
+    scenes.insert(scenes.end(), words.begin(), words.end());
+    return scenes;
 }
 
 /// Every name once, with all that it was given.
@@ -130,12 +131,13 @@ RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::
 
 std::string command_of(const CLI::App& command, const std::vector<std::string>& without,
                        const std::vector<std::string>& with) {
-    std::string text = "triad render";
-    for (const std::string& word :
-         words_of(command, [&](const std::string& name) { return !is_in(without, name); }))
-        text += " " + quoted(word);
-    for (const std::string& word : with)
-        if (!word.empty()) text += " " + quoted(word);
+    Words words = words_of(command, [&](const std::string& name) { return !is_in(without, name); });
+    words.insert(words.end(), with.begin(), with.end());
+    std::erase(words, "");
+    std::stable_partition(words.begin(), words.end(),
+                          [](const std::string& w) { return name_in(w).empty(); });
+    std::string text = "triad render";  // and scenes first
+    for (const std::string& word : words) text += " " + quoted(word);
     return text;
 }
 

@@ -24,7 +24,7 @@ void declare_scene(CLI::App& command, RenderRequest& o) {
     command
         .add_option("--animation", o.animation,
                     "Of the file, or none for nodes as they are (default: the first)")
-        ->type_name("NAME|INDEX")
+        ->type_name("NAME|INDEX|none")
         ->group(scene_group);
     command.add_option("--pose-time", o.pose_time, "Where in the animation, in seconds (default 0)")
         ->check(number_within(-1e9, 1e9))
@@ -35,6 +35,11 @@ void declare_scene(CLI::App& command, RenderRequest& o) {
                     "Width of the file's points and lines, in pixels of the picture (default 1.5)")
         ->check(number_within(0.01, 1000))
         ->type_name("PIXELS")
+        ->group(scene_group);
+    add_max_texture(command, o.max_texture)->group(scene_group);
+    command
+        .add_flag("--strict", o.strict,
+                  "Damaged data of the scene (images, normals and the like) end it with exit code 2")
         ->group(scene_group);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/check_outputs.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "report/report.h"
 #include "trace/tune.h"
 
@@ -51,10 +52,10 @@ void add_tune(CLI::App& app, Exit& exit) {
     CLI::App* command = app.add_subcommand(
         "tune",
         "Measure which nodes, work-group size and driver of paths suit a device, and keep it for later runs");
-    command->add_option("--device", o->device, "Device: a number, cpu, gpu, or part of a name");
-    command->add_option("--threads", o->threads, "Compute units to use on a CPU device (0: all)");
-    command->add_option("--json", o->json, "Write the timings as JSON (-: standard output)");
-    command->add_option("--kernels", o->kernels, "Read the kernels from this folder");
+    add_device(*command, o->device);
+    add_threads(*command, o->threads);
+    add_json(*command, o->json, "Write the timings");
+    add_kernels(*command, o->kernels);
     command->callback([o, &exit] { exit = run(*o); });
 }
 

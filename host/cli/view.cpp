@@ -35,6 +35,11 @@ void add_view(CLI::App& app, Exit& exit) {
         app.add_subcommand("view", "Look at a scene in a browser while it is rendered, and around in it");
     declare_workload(*command, o->render);
     declare_style(*command, o->render.style);
+    command->get_option("--spp")->description(
+        "Samples per pixel, after which the picture stays as it is (default: none). Of --spp, --error and "
+        "--time, what is reached first ends it");
+    // What a view refuses, with a sentence.
+    for (const char* refused : {"--samples", "--pixel", "--denoise"}) command->get_option(refused)->group("");
     const char* const group = "Page";
     command->add_option("--port", o->port, "Of 127.0.0.1, where the page is (default: any that is free)")
         ->check(CLI::Range(0, 65535))

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <map>
 
 #include "base/error.h"
@@ -84,9 +86,12 @@ std::vector<std::string> read_channels(const std::string& name, Span value) {
 void add_metadata(Metadata& metadata, const std::string& name, const Attribute& a) {
     const auto number = [&]<class T>(T v) {
         std::memcpy(&v, a.value.data(), sizeof v);
+        // Counts in full, others by the digits that tell them apart.
+        const bool is_count = std::abs(double(v)) < 1e15 && double(v) == std::trunc(double(v));
         char text[40];
-        std::snprintf(text, sizeof text, "%.9g", double(v));
-        metadata[name] = text;
+        const char* const end = is_count ? std::to_chars(text, std::end(text), std::int64_t(v)).ptr
+                                         : std::to_chars(text, std::end(text), v).ptr;
+        metadata[name] = std::string(static_cast<const char*>(text), end);
     };
     if (a.type == "string") metadata[name] = {a.value.begin(), a.value.end()};
     if (a.type == "int" && a.value.size() == 4) number(std::int32_t{});

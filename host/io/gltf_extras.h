@@ -1,5 +1,5 @@
 #pragma once
-/// What this project adds to glTF by "extras": {"triad": {...}}. docs/extras.schema.json describes it.
+/// What this project adds to glTF by "extras": {"triad": {...}}. docs/schema/extras.schema.json describes it.
 #include <functional>
 #include <string>
 

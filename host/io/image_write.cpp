@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <set>
 #include <stdexcept>
 
 #include "base/colour.h"
@@ -27,9 +28,22 @@ bool must_be_float(const std::string& channel) {
     return channel == "Z";
 }
 
-/// pbrt-v4's names keep pbrt-v4's types (util/image.cpp); everything else is a string.
+/// Of Triad's names those whose values are numbers. All are double, which holds every count that there is.
+const std::set<std::string> numbers{
+    "triad:spp",         "triad:spp_min",   "triad:spp_max",        "triad:samples",       "triad:rays",
+    "triad:not_finite",  "triad:saturated", "triad:truncated",      "triad:cut_energy",    "triad:relmse",
+    "triad:trend",       "triad:seed",      "triad:seconds",        "triad:compute_units", "triad:ppd",
+    "triad:max_texture", "triad:pose_time", "triad:perceived_noise"};
+
+/// pbrt-v4's names keep pbrt-v4's types (util/image.cpp), OpenEXR's have its own; other texts are strings.
 void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const std::string& value) {
-    if (name == "renderTimeSeconds" || name == "MSE") {
+    if (numbers.contains(name)) {
+        const double number = std::strtod(value.c_str(), nullptr);
+        spec.attribute(name, OIIO::TypeDesc::DOUBLE, &number);
+    } else if (name == "capDate") {  // universal time
+        spec.attribute("DateTime", value);
+        spec.attribute("utcOffset", 0.0f);
+    } else if (name == "renderTimeSeconds" || name == "MSE") {
         spec.attribute(name, std::strtof(value.c_str(), nullptr));
     } else if (name == "samplesPerPixel") {
         spec.attribute(name, int(std::strtol(value.c_str(), nullptr, 10)));
@@ -45,6 +59,14 @@ void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const std::st
     } else {
         spec.attribute(name, value);
     }
+}
+
+/// What R, G and B are: the primaries of Rec. 709 and sRGB with their white, D65. Drives of a panel are
+/// colours of its own emitters.
+void add_chromaticities(OIIO::ImageSpec& spec, const Picture& picture) {
+    constexpr float rec709[] = {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f};
+    if (picture.find("R") && !picture.metadata.contains("triad:panel"))
+        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
 }
 
 /// The channels side by side, interleaved. Throws std::logic_error when a channel has not one value per
@@ -118,6 +140,7 @@ std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half, std::siz
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("DateTime", "");  // else the writer adds the time: equal pictures have equal bytes
     for (const auto& [name, value] : picture.metadata) add_attribute(spec, name, value);
+    add_chromaticities(spec, picture);
     if (saturated) *saturated = count;
     return oiio::encode("openexr", spec, OIIO::TypeDesc::FLOAT, values.data());
 }

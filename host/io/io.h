@@ -70,7 +70,7 @@ struct Picture {
 
 /// EXR, float (or half: saturated at 65504, the number saturated is returned; depth, position and counts stay
 /// float). Scanlines, ZIP; the data window is the crop, the display window the full picture. Metadata become
-/// attributes of the same name: strings, but pbrt's names have pbrt's types. Written aside and renamed.
+/// attributes of the same name: strings or double, pbrt's names with pbrt's types. Written aside and renamed.
 std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half = false);
 /// The same file as bytes, for standard output.
 std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false,

@@ -8,8 +8,12 @@
 namespace triad {
 
 void declare(CLI::App& app, ReplayRequest& o) {
+    app.name("triad-replay");
+    app.description("Replays, verifies and measures what triad capture wrote, on any OpenCL device.");
+    app.set_version_flag("-V,--version", "triad-replay " TRIAD_VERSION, "Print the version");
+    app.footer("Exit codes: 0 done, 1 usage, 2 file, 4 memory, 5 device, 7 the film is not the captured one");
     app.add_option("FILE", o.capture, "A capture, by triad capture")->required()->type_name("");
-    app.add_option("--device", o.device, "Device: a number, cpu, gpu, or part of a name");
+    app.add_option("--device", o.device, "Number, cpu, gpu, or part of a name")->type_name("SEL");
     app.add_option("--threads", o.threads, "Compute units to use on a CPU device (0: all)")->type_name("N");
     app.add_option("--repeat", o.repeat, "Runs that are measured, after the first (default 5; 0: none)")
         ->check(CLI::Range(0u, 100000u))
@@ -26,10 +30,10 @@ void declare(CLI::App& app, ReplayRequest& o) {
                         : rule == "film" ? VerifyRule::film
                                          : VerifyRule::automatic;
            },
-           "auto (the default: bits on the captured device and driver, else film), bits, or film: within "
-           "tolerances")
+           "How its film is compared. auto, the default: bits on the captured device and driver, else film; "
+           "film: within tolerances")
         ->check(CLI::IsMember({"auto", "bits", "film"}))
-        ->type_name("RULE");
+        ->type_name("auto|bits|film");
     app.add_option("--kernels", o.kernels, "Take the programs from this folder instead of the capture")
         ->check(CLI::ExistingDirectory)
         ->type_name("DIR");

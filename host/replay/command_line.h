@@ -18,7 +18,7 @@ struct ReplayRequest {
     bool tune = false, check = false;
 };
 
-/// Declares the options. `request` must outlive the parsing.
+/// Declares what the program is and its options. `request` must outlive the parsing.
 void declare(CLI::App& app, ReplayRequest& request);
 
 /// Prints, and writes what is asked for. Throws Error.

@@ -15,10 +15,7 @@ using namespace triad;
 const std::string program = "triad-replay";
 
 int run(int argc, char** argv) {
-    CLI::App app("Replays, verifies and measures what triad capture wrote, on any OpenCL device.",
-                 "triad-replay");
-    app.set_version_flag("--version", "triad-replay " TRIAD_VERSION);
-    app.footer("Exit codes: 0 done, 1 usage, 2 file, 4 memory, 5 device, 7 the film is not the captured one");
+    CLI::App app;
     ReplayRequest request;
     declare(app, request);
     try {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <set>
@@ -57,6 +58,13 @@ std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
     return lock;
 }
 
+OpenDevices opened(const RenderRequest& request, OpenDevices* kept) {
+    if (kept && *kept) return *kept;
+    OpenDevices devices = std::make_shared<std::vector<Device>>(open_devices(request));
+    if (kept) *kept = devices;
+    return devices;
+}
+
 std::vector<Device*> pointers(std::vector<Device>& devices) {
     std::vector<Device*> all;
     for (Device& device : devices) all.push_back(&device);
@@ -71,6 +79,16 @@ std::string joined(const std::vector<Device>& devices, const Say& say) {
     for (const Device& device : devices)
         if (const std::string word = say(device); said.insert(word).second)
             text += (text.empty() ? "" : "; ") + word;
+    return text;
+}
+
+/// As OpenEXR writes a date: "2026:11:26 17:04:05".
+std::string universal_time() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    ::gmtime_r(&now, &parts);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y:%m:%d %H:%M:%S", &parts);
     return text;
 }
 
@@ -135,13 +153,13 @@ std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const
 
 }  // namespace
 
-RenderSession::RenderSession(RenderRequest request)
+RenderSession::RenderSession(RenderRequest request, OpenDevices* kept)
     : request_(checked(std::move(request))),
       lock_(lock_of(request_)),
       scene_(timed_scene(request_, load_seconds_, loaded_)),
       settings_(settings_of(request_, scene_)),
-      devices_(open_devices(request_)),
-      renderer_(std::make_unique<Renderer>(pointers(devices_), scene_, settings_)),
+      devices_(opened(request_, kept)),
+      renderer_(std::make_unique<Renderer>(pointers(*devices_), scene_, settings_)),
       goal_(request_.goal()) {
     if (!request_.film_path.empty())
         goal_.keep = {.write = [this](const Film& film) { keep(film); },
@@ -224,20 +242,21 @@ std::string RenderSession::scene_name() const {
 Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     const RenderResult& result = outcome.result;
     Metadata metadata = triad::metadata_of(outcome.film);
-    metadata["triad:driver"] = joined(devices_, [](const Device& d) { return d.info().driver; });
-    metadata["triad:format"] = joined(devices_, [](const Device& d) { return name_of(format_of(d)); });
+    metadata["triad:driver"] = joined(*devices_, [](const Device& d) { return d.info().driver; });
+    metadata["triad:format"] = joined(*devices_, [](const Device& d) { return name_of(format_of(d)); });
     metadata["triad:path_driver"] =
-        joined(devices_, [](const Device& d) { return name_of(path_driver_of(d)); });
+        joined(*devices_, [](const Device& d) { return name_of(path_driver_of(d)); });
     metadata["triad:stopped_by"] = to_string(result.stop);
     metadata["triad:seconds"] = metadata["renderTimeSeconds"] = format("%.3f", result.seconds);
     metadata["triad:scene_name"] = scene_name();
+    metadata["capDate"] = universal_time();
     if (!request_.variant.empty()) metadata["triad:variant"] = request_.variant;
     if (!request_.animation.empty()) metadata["triad:animation"] = request_.animation;
     if (request_.pose_time != 0) metadata["triad:pose_time"] = format("%.9g", request_.pose_time);
     metadata["triad:machine"] = machine_words();
     if (loaded_.max_texture > 0) metadata["triad:max_texture"] = std::to_string(loaded_.max_texture);
     unsigned units = 0;
-    for (const Device& device : devices_) units += device.info().compute_units;
+    for (const Device& device : *devices_) units += device.info().compute_units;
     metadata["triad:compute_units"] = std::to_string(units);
     std::string lost;
     for (const DeviceWork& work : result.devices)

@@ -24,11 +24,15 @@ struct RenderOutcome {
     bool complete() const { return result.stop != Stop::interrupt; }
 };
 
+/// Devices that stay open from one render to the next, with all that was compiled for them. Empty: not yet.
+using OpenDevices = std::shared_ptr<std::vector<Device>>;
+
 class RenderSession {
   public:
     /// Completes the request, sees that its files can be written and no one else writes its film, loads the
-    /// scene and the film to go on from, opens the device and makes all ready. Throws Error.
-    explicit RenderSession(RenderRequest request);
+    /// scene and the film to go on from, opens the device and makes all ready. `kept`: devices of an earlier
+    /// request for the same ones; those that are opened are kept there. Throws Error.
+    explicit RenderSession(RenderRequest request, OpenDevices* kept = nullptr);
 
     /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
     /// film that the request names is written meanwhile (docs/film.md).
@@ -43,8 +47,8 @@ class RenderSession {
     /// Of the request. What is measured or decided for its panel comes with it.
     const RenderGoal& goal() const { return goal_; }
     const Scene& scene() const { return scene_; }
-    std::string scene_name() const;                            ///< the file's, without folders; "built-in"
-    const Device& device() const { return devices_.front(); }  ///< the first of those that render
+    std::string scene_name() const;                             ///< the file's, without folders; "built-in"
+    const Device& device() const { return devices_->front(); }  ///< the first of those that render
     Renderer& renderer() { return *renderer_; }
     /// Samples per pixel that the film held which the render went on from.
     double resumed_samples() const { return resumed_samples_; }
@@ -57,7 +61,7 @@ class RenderSession {
     GltfReport loaded_;
     Scene scene_;
     RenderSettings settings_;
-    std::vector<Device> devices_;
+    OpenDevices devices_;
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
     std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes

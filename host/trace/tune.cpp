@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/log.h"
+#include "base/without_details.h"
 #include "trace/node_format.h"
 #include "trace/path_driver.h"
 #include "trace/tune_paths.h"
@@ -123,7 +124,10 @@ const std::vector<TuneSearch>& tune_searches() {
 
 std::vector<TuneTiming> time_search(Device& device, const TuneSearch& search) {
     for (const TuneAxis& axis : search.axes) axis.set(device, axis.values(device).front());
-    const auto workload = search.make(device);
+    const auto workload = [&] {
+        const WithoutDetails quiet;
+        return search.make(device);
+    }();
     std::vector<TuneTiming> timings;
     std::exception_ptr refused;
     Tuning values;

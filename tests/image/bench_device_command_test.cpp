@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "json_schema.h"
 #include "program.h"
 #include "unit/temporary_folder.h"
 
@@ -19,6 +20,7 @@ TEST(BenchDeviceCommand, measures_every_part_and_boards_join) {
     ASSERT_EQ(outcome.exit, 0) << outcome.output;
     EXPECT_NE(outcome.output.find("\"seconds_left\""), std::string::npos) << outcome.output;
     EXPECT_NE(outcome.output.find("\"doing\": \""), std::string::npos);
+    expect_schema("bench-device", board / "board.json");
     const json report = json::parse(bytes_of(board / "board.json"));
     EXPECT_EQ(report["schema"], "triad.bench-device/1");
     ASSERT_EQ(report["boards"].size(), 1u);

@@ -11,6 +11,7 @@
 #include "base/temporary_folder.h"
 #include "capture/capture.h"
 #include "io/io.h"
+#include "json_schema.h"
 #include "program.h"
 
 namespace fs = std::filesystem;
@@ -78,6 +79,7 @@ TEST(CaptureCommand, a_replay_reports_what_a_profile_does_and_what_became_slower
     const Outcome replayed = run_replay(file + " --repeat 2 --json " + json + " -o " + page);
     ASSERT_EQ(replayed.exit, 0) << replayed.output;
     EXPECT_NE(replayed.output.find("of the roof"), std::string::npos) << replayed.output;
+    expect_schema("replay", json);
     Json report = report_of(json);
     const Json row = row_of(report, "wave_intersect_edges");
     EXPECT_GT(row.at("roofline_share"), 0);

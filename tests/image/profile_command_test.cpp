@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "json_schema.h"
 #include "program.h"
 #include "unit/temporary_folder.h"
 
@@ -88,6 +89,7 @@ TEST(ProfileCommand, every_driver_of_paths_counts_the_same_rays_and_its_shares_a
     for (const std::string driver : {"mega", "wave", "wave-stages"}) {
         const fs::path path = folder / "a.json";
         expect_profile(0, "--driver " + driver + " --json " + path.string());
+        expect_schema("profile", path);
         const json report = json_of(path);
         EXPECT_EQ(report["schema"], "triad.profile/1");
         double share = 0;

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <random>
 #include <string>
@@ -15,6 +16,7 @@
 #include "base/memory_limit.h"
 #include "capture/capture.h"
 #include "capture/capture_header.h"
+#include "json_schema.h"
 #include "kernels/types.h"
 #include "sentence_of.h"
 #include "temporary_folder.h"
@@ -145,6 +147,13 @@ TEST(CaptureFile, absurd_sizes_are_refused_before_memory_is_asked_for) {
         }
     EXPECT_NE(refused_when([](Capture& c) { c.width = std::uint64_t(1) << 40; }).find("size of its film"),
               std::string::npos);
+}
+
+TEST(CaptureFile, has_the_header_that_its_schema_describes) {
+    const TemporaryFolder folder;
+    ContentTable table;
+    std::ofstream(folder / "header") << capture_header(small_capture(), table);
+    expect_schema("capture", folder / "header");
 }
 
 TEST(CaptureFile, a_header_that_nests_deep_is_refused_before_it_is_written_again) {

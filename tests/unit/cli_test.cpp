@@ -109,6 +109,16 @@ TEST(CommandLine, no_driver_is_a_device_error) {
     expect("devices", 5, "OpenCL", "OCL_ICD_VENDORS=/no/such/folder");
 }
 
+TEST(CommandLine, the_list_of_cases_asks_no_device) {
+    expect("check --list", 0, "M1 sin and cos", "OCL_ICD_VENDORS=/no/such/folder");
+    expect("check --quick --full", 1, "--quick");
+}
+
+TEST(CommandLine, options_for_every_run_of_a_bench_override_those_of_its_scenes) {
+    expect("bench --options '--size 0x9'", 1, "--size 0x9");
+    expect("bench error 'a: --size 8x8' --options '--size 0x9'", 1, "--size 0x9");
+}
+
 TEST(CommandLine, a_full_disk_leaves_an_older_report_as_it_was) {
     const fs::path folder = fs::temp_directory_path() / ("triad-cli-test-" + std::to_string(::getpid()));
     fs::create_directories(folder);

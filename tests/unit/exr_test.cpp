@@ -82,20 +82,42 @@ TEST(Exr, a_crop_keeps_its_place_in_the_full_picture) {
 TEST(Exr, metadata_keep_their_names_and_pbrt_types) {
     Picture picture = random_picture(3, 3, {"R", "G", "B"});
     picture.metadata = {{"triad:spp", "64"},
+                        {"triad:rays", "123456789012345"},
+                        {"triad:relmse", "0.00213700001"},
+                        {"triad:scene", "12345678"},
                         {"triad:device", "a device, \"quoted\""},
                         {"renderTimeSeconds", "1.5"},
                         {"samplesPerPixel", "64"},
                         {"worldToCamera", "1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16"}};
     const auto bytes = encode_exr(picture);
     const Metadata back = clean_exr("test", bytes).metadata;
-    EXPECT_EQ(back.at("triad:spp"), "64");
+    for (const char* name : {"triad:spp", "triad:rays", "triad:relmse"}) {
+        EXPECT_EQ(back.at(name), picture.metadata.at(name));
+        EXPECT_EQ(attribute_type(bytes, name), "double") << name;
+    }
+    EXPECT_EQ(attribute_type(bytes, "triad:scene"), "string") << "a hash of digits alone is no number";
     EXPECT_EQ(back.at("triad:device"), "a device, \"quoted\"");
     EXPECT_EQ(back.at("renderTimeSeconds"), "1.5");
     EXPECT_EQ(back.at("samplesPerPixel"), "64");
-    EXPECT_EQ(attribute_type(bytes, "triad:spp"), "string");
     EXPECT_EQ(attribute_type(bytes, "renderTimeSeconds"), "float");
     EXPECT_EQ(attribute_type(bytes, "samplesPerPixel"), "int");
     EXPECT_EQ(attribute_type(bytes, "worldToCamera"), "m44f");
+}
+
+TEST(Exr, colours_say_what_they_are_unless_they_drive_a_panel) {
+    Picture picture = random_picture(3, 3, {"R", "G", "B"});
+    EXPECT_EQ(attribute_type(encode_exr(picture), "chromaticities"), "chromaticities");
+    picture.metadata["triad:panel"] = "rgb";
+    EXPECT_EQ(attribute_type(encode_exr(picture), "chromaticities"), "");
+    EXPECT_EQ(attribute_type(encode_exr(random_picture(3, 3, {"error"})), "chromaticities"), "");
+}
+
+TEST(Exr, a_time_is_written_where_one_is_given_and_is_universal) {
+    Picture picture = random_picture(3, 3, {"R", "G", "B"});
+    picture.metadata["capDate"] = "2026:11:26 17:04:05";
+    const Metadata back = clean_exr("test", encode_exr(picture)).metadata;
+    EXPECT_EQ(back.at("capDate"), "2026:11:26 17:04:05");
+    EXPECT_EQ(back.at("utcOffset"), "0");
 }
 
 TEST(Exr, half_saturates_and_counts_and_leaves_depth_alone) {

@@ -65,7 +65,7 @@ TEST(Glass, names_are_found_however_they_are_written) {
 }
 
 TEST(Glass, every_glass_of_the_catalogue_is_sane_and_in_the_schema) {
-    const auto bytes = read_file(TRIAD_SOURCE_DIR "/docs/extras.schema.json");
+    const auto bytes = read_file(TRIAD_SOURCE_DIR "/docs/schema/extras.schema.json");
     const auto schema = nlohmann::json::parse(bytes.begin(), bytes.end());
     std::vector<std::string> names;
     for (const Glass& g : glass_catalogue()) {

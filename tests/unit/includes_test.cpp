@@ -49,7 +49,7 @@ const std::map<std::string, Names> below = [] {
         {"report", with(measured, {"render", "display", "check", "bench", "io", "session"})},
         {"viewer", with(measured, {"render", "display", "check", "io", "session", "report"})},
         {"cli", with(measured, {"render", "display", "capture", "check", "bench", "io", "session", "report",
-                                "viewer"})},
+                                "viewer", "replay"})},
         {"replay", with(measured, {"capture", "check"})},
     };
 }();

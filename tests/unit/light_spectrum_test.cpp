@@ -199,7 +199,7 @@ TEST(LightSpectrumInFiles, what_is_malformed_is_refused_with_a_sentence) {
 }
 
 TEST(LightSpectrumInFiles, the_schema_knows_the_names_and_limits) {
-    const auto bytes = read_file(TRIAD_SOURCE_DIR "/docs/extras.schema.json");
+    const auto bytes = read_file(TRIAD_SOURCE_DIR "/docs/schema/extras.schema.json");
     const json schema = json::parse(bytes.begin(), bytes.end());
     const json& spectrum = schema["$defs"]["spectrum"]["oneOf"];
     EXPECT_EQ(spectrum[0]["enum"], json({"D65", "E"}));
