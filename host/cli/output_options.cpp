@@ -49,6 +49,12 @@ void declare_style(CLI::App& command, OutputStyle& style) {
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
 }
 
+void declare_background(CLI::App& command, OutputStyle& style) {
+    add_parsed(command, "--background", "#RRGGBB", "Put this colour behind what is transparent",
+               [&style](const std::string& v) { style.background = parse_colour("--background", v); })
+        ->group(output_group);
+}
+
 void declare_outputs(CLI::App& command, RenderRequest& o) {
     declare_frames(command, o);
     command

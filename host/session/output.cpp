@@ -187,6 +187,11 @@ Source source_of(Device& device, const std::shared_ptr<const BinImage>& image, b
     return source;
 }
 
+/// The caller keeps it.
+std::shared_ptr<const BinImage> borrowed(const BinImage& image) {
+    return {&image, [](const BinImage*) {}};
+}
+
 /// The film and the device must live as long.
 Source source_of(Device& device, const Film& film, const OutputStyle& style) {
     Source source;
@@ -214,6 +219,18 @@ void write_outputs(const std::vector<std::string>& paths, Device& device, const 
     write_all(paths, std::move(source), style, metadata);
 }
 
+Picture linear_picture(Device& device, const Film& film, const OutputStyle& style) {
+    return linear(source_of(device, film, style));
+}
+
+Picture linear_picture(Device& device, const BinImage& image, bool alpha, const OutputStyle& style) {
+    return linear(source_of(device, borrowed(image), alpha, style));
+}
+
+EncodedPicture encoded_picture(Device& device, const Film& film, const OutputStyle& style) {
+    return encoded(source_of(device, film, style), style);
+}
+
 std::vector<std::uint8_t> encode_output(const std::string& extension, Device& device, const Film& film,
                                         const OutputStyle& style, const Metadata& metadata) {
     const Source source = source_of(device, film, style);
@@ -230,8 +247,7 @@ std::vector<std::uint8_t> encode_output(const std::string& extension, Device& de
 
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
                    const OutputStyle& style, const Metadata& metadata) {
-    const std::shared_ptr<const BinImage> kept(&image, [](const BinImage*) {});  // the caller's
-    write_all(paths, source_of(device, kept, alpha, style), style, metadata);
+    write_all(paths, source_of(device, borrowed(image), alpha, style), style, metadata);
 }
 
 }  // namespace triad

@@ -10,6 +10,7 @@
 #include "device/device.h"
 #include "render/renderer.h"
 #include "session/metadata.h"
+#include "session/prepare.h"
 #include "session/render_request.h"
 
 namespace triad {
@@ -29,6 +30,8 @@ class RenderSession {
     /// Completes the request, sees that its files can be written and no one else writes its film, loads the
     /// scene and the film to go on from, opens the device and makes all ready. Throws Error.
     explicit RenderSession(RenderRequest request);
+    /// The same of a scene that was read before.
+    RenderSession(RenderRequest request, LoadedScene loaded);
 
     /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
     /// film that the request names is written meanwhile (docs/film.md).
@@ -36,13 +39,17 @@ class RenderSession {
     /// Writes the pictures and the film that the request names, the film even where a picture fails.
     void write(const RenderOutcome& outcome);
 
+    /// The planes of --aov, as EXR channels.
+    std::vector<Channel> layers_of(const RenderOutcome& outcome);
     /// What the pictures say of themselves.
     Metadata metadata_of(const RenderOutcome& outcome) const;
+    /// The part of it that their reconstruction does not change.
+    Metadata facts_of(const RenderOutcome& outcome) const;
 
     const RenderRequest& request() const { return request_; }
     /// Of the request. What is measured or decided for its panel comes with it.
     const RenderGoal& goal() const { return goal_; }
-    const Scene& scene() const { return scene_; }
+    const Scene& scene() const { return loaded_.scene; }
     std::string scene_name() const;                            ///< the file's, without folders; "built-in"
     const Device& device() const { return devices_.front(); }  ///< the first of those that render
     Renderer& renderer() { return *renderer_; }
@@ -54,14 +61,14 @@ class RenderSession {
     RenderRequest request_;
     std::unique_ptr<FileLock> lock_;  ///< on the film that is written
     double load_seconds_ = 0, resumed_samples_ = 0;
-    GltfReport loaded_;
-    Scene scene_;
+    LoadedScene loaded_;
     RenderSettings settings_;
     std::vector<Device> devices_;
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
     std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes
 
+    RenderSession(RenderRequest request, std::optional<LoadedScene> loaded);
     void resume();
     void keep(const Film& film);
     RenderResult fill_holes(const std::function<bool(const Progress&)>& report);
