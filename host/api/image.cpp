@@ -1,6 +1,7 @@
 #include "triad/image.h"
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
 
 #include "api/guard.h"
 #include "api/parse.h"
@@ -9,8 +10,10 @@
 #include "base/error.h"
 #include "metric/flip.h"
 #include "metric/image_metrics.h"
+#include "panel/perceived.h"
 #include "session/metadata.h"
 #include "session/output.h"
+#include "session/panel_file.h"
 #include "session/resolve.h"
 
 namespace triad::api {
@@ -94,6 +97,29 @@ Comparison compare(const Image& picture, const Image& reference) {
                 .mae = mean_absolute_error(x, r),
                 .psnr = psnr(x, r),
                 .flip = mean_flip(flip_map(light_of(picture), light_of(reference)))};
+    });
+}
+
+Perceived perceived(const Image& drives, const Image& reference, const std::string& panel, double ppd,
+                    const std::string& eye_name) {
+    return guarded([&]() -> Perceived {
+        require_sound(drives, "The picture");
+        require_sound(reference, "The reference");
+        const std::optional<Eye> eye = eye_named(eye_name);
+        if (!eye)
+            throw triad::Error(Exit::usage,
+                               "There is no eye '" + eye_name + "'; there are scielab, sharp and flip.");
+        const triad::Panel display = panel_named(panel);
+        const double seen_at = ppd == 0 ? display.ppd.value_or(usual_ppd) : ppd;
+        if (!(seen_at >= 1 && seen_at <= 1000))
+            throw triad::Error(Exit::usage, "Pixels per degree are from 1 to 1000, or 0 for the panel's.");
+        const RgbImage shown = light_of(drives);
+        RgbImage wanted = light_of(reference);
+        for (float& v : wanted.rgb) v = v > 0 ? std::min(v, 1.0f) : 0.0f;
+        const PerceivedMetric metric(display, wanted, samples_per_pixel(shown, wanted),
+                                     {.ppd = seen_at, .eye = *eye});
+        const PerceivedError e = metric.of(shown);
+        return {e.error, e.lightness, e.colour, e.de_mean, e.de_p95};
     });
 }
 

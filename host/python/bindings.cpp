@@ -149,6 +149,12 @@ void add_rows(py::module_& module) {
         .def_readonly("mae", &api::Comparison::mae)
         .def_readonly("psnr", &api::Comparison::psnr)
         .def_readonly("flip", &api::Comparison::flip);
+    py::class_<api::Perceived>(module, "Perceived")
+        .def_readonly("error", &api::Perceived::error)
+        .def_readonly("lightness", &api::Perceived::lightness)
+        .def_readonly("colour", &api::Perceived::colour)
+        .def_readonly("de_mean", &api::Perceived::de_mean)
+        .def_readonly("de_p95", &api::Perceived::de_p95);
     py::class_<api::Device>(module, "Device")
         .def_readonly("index", &api::Device::index)
         .def_readonly("name", &api::Device::name)
@@ -264,6 +270,13 @@ PYBIND11_MODULE(_triad, module) {
         const api::Image a = image_of(picture, picture_encoded), b = image_of(reference, reference_encoded);
         const py::gil_scoped_release release;
         return api::compare(a, b);
+    });
+    module.def("perceived", [](const Floats& drives, bool drives_encoded, const Floats& reference,
+                               bool reference_encoded, const std::string& panel, double ppd,
+                               const std::string& eye) {
+        const api::Image a = image_of(drives, drives_encoded), b = image_of(reference, reference_encoded);
+        const py::gil_scoped_release release;
+        return api::perceived(a, b, panel, ppd, eye);
     });
     module.def("reconstruct", &reconstruct);
     module.def("devices", &api::devices, py::call_guard<py::gil_scoped_release>());

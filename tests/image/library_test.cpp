@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -184,6 +185,28 @@ TEST(Library, compares_pictures) {
               }),
               "7 The pictures differ in size: one is 2x1, the reference is 1x1.");
     EXPECT_EQ(refusal([&] { api::compare(a, {2, 1, 3, {0, 0, 0}}); }).substr(0, 1), "1");
+}
+
+TEST(Library, tells_what_an_eye_sees_as_the_command_line_does) {
+    const TemporaryFolder folder;
+    const std::string a = (folder / "a.exr").string(), b = (folder / "b.exr").string(),
+                      json = (folder / "c.json").string();
+    const api::Film film =
+        api::render(api::Scene(), {.width = 96, .height = 64, .spp = 9, .options = {{"panel", "rgb"}}});
+    const api::Film reference = api::render(
+        api::Scene(), {.width = 288, .height = 192, .spp = 2, .options = {{"reconstruct", "pane:1"}}});
+    film.write(a), reference.write(b);
+    const Outcome compared =
+        run_triad("compare " + a + " " + b + " --metric perceived --panel rgb --eye sharp --json " + json);
+    ASSERT_EQ(compared.exit, 0) << compared.output;
+    const auto row = nlohmann::json::parse(bytes_of(json)).at("rows").at(0).at("perceived").at(0);
+    const api::Perceived seen = api::perceived(film.image(), reference.image(), "rgb", 0, "sharp");
+    EXPECT_GT(seen.error, 0);
+    EXPECT_NEAR(seen.error, row.at("error").get<double>(), 1e-6 * seen.error);
+    EXPECT_NEAR(seen.de_p95, row.at("de_p95").get<double>(), 1e-6 * seen.de_p95);
+    EXPECT_NE(refusal([&] { api::perceived(film.image(), reference.image(), "rgb", 0, "cat"); }).find("cat"),
+              std::string::npos);
+    EXPECT_EQ(refusal([&] { api::perceived(reference.image(), film.image(), "rgb"); }).substr(0, 1), "7");
 }
 
 TEST(Library, filters_a_larger_picture) {

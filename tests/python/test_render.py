@@ -93,6 +93,16 @@ def test_compare_knows_films_files_and_arrays():
     assert caught.value.exit_code == 7
 
 
+def test_an_eye_sees_less_of_what_is_made_for_its_panel():
+    film = triad.render(width=96, height=64, spp=36, bins=(3, 3))
+    reference = triad.render(width=288, height=192, spp=4, reconstruct="pane:1")
+    right = triad.perceived(triad.resolve(film, panel="rgb"), reference, "rgb")
+    wrong = triad.perceived(triad.resolve(film, panel="bgr"), reference, "rgb")
+    assert 0 < right.error < wrong.error and right.de_p95 > right.de_mean
+    with pytest.raises(triad.Error, match="cat"):
+        triad.perceived(film, reference, "rgb", eye="cat")
+
+
 def test_progress_is_told_and_stops():
     seen = []
 

@@ -41,6 +41,23 @@ struct Comparison {
 /// says.
 TRIAD_API Comparison compare(const Image& picture, const Image& reference);
 
+/// What an eye sees of the difference between what a panel shows and what it should show. In units of about
+/// one CIELAB unit at mid grey; means are over all pixels but those at the borders.
+struct Perceived {
+    double error = 0;      ///< root of lightness^2 + colour^2
+    double lightness = 0;  ///< root mean square
+    double colour = 0;     ///< root mean square of both colour axes: fringes
+    double de_mean = 0;    ///< of CIELAB's colour difference after the eye's blur
+    double de_p95 = 0;     ///< 95 % of the pixels have less
+};
+
+/// `drives`: what the panel is driven with, linear. `reference`: what there is to be seen, linear in [0, 1],
+/// n x n pixels for each of the panel's, n at least 3. `panel`: a name or a file, as of option "panel".
+/// `ppd`: pixels per degree; 0: the panel's, or 45. `eye`: "scielab", "sharp" or "flip". Throws Error(7) for
+/// sizes that do not fit or are too small, Error.
+TRIAD_API Perceived perceived(const Image& drives, const Image& reference, const std::string& panel,
+                              double ppd = 0, const std::string& eye = "scielab");
+
 /// The pixels of any renderer's picture as the bins of a smaller one: filtered, made for a panel (option
 /// "panel"), mapped to tones. Options: those of `triad resolve` but "output". Throws Error.
 TRIAD_API Image reconstruct(const Image& bins, const Options& options);

@@ -21,15 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _triad
-from ._arguments import count, image, words
+from ._arguments import count, image, number, words
 from ._scene import Camera, Material, Mesh, make_scene
-from ._triad import CheckResult, Comparison, Device, Error, Panel, Progress, Scene
+from ._triad import CheckResult, Comparison, Device, Error, Panel, Perceived, Progress, Scene
 
 __version__: str = _triad.version()
 __all__ = [
-    "Camera", "CheckResult", "Comparison", "Device", "Error", "Film", "Material", "Mesh", "Panel", "Progress", "Scene",
-    "check", "compare", "devices", "load", "load_film", "make_scene", "merge", "panels", "read_image", "render",
-    "resolve", "set_verbosity",
+    "Camera", "CheckResult", "Comparison", "Device", "Error", "Film", "Material", "Mesh", "Panel", "Perceived", "Progress",
+    "Scene", "check", "compare", "devices", "load", "load_film", "make_scene", "merge", "panels", "perceived",
+    "read_image", "render", "resolve", "set_verbosity",
 ]
 
 Path = Union[str, "os.PathLike[str]"]
@@ -186,9 +186,24 @@ def compare(picture: Film | Picture, reference: Film | Picture) -> Comparison:
     Pictures are films, files, or arrays of height x width x 3 or 4; arrays of uint8 and uint16 hold sRGB values. Throws
     Error for pictures of different sizes.
     """
-    first = picture.image if isinstance(picture, Film) else picture
-    second = reference.image if isinstance(reference, Film) else reference
-    return _triad.compare(*image("picture", first), *image("reference", second))
+    return _triad.compare(*_pixels("picture", picture), *_pixels("reference", reference))
+
+
+def perceived(
+    drives: Film | Picture, reference: Film | Picture, panel: str, ppd: float | None = None, eye: str = "scielab"
+) -> Perceived:
+    """What an eye sees of the difference between what a panel shows and what it should show.
+
+    drives: what the panel is driven with, as resolve(film, panel=...) makes it. reference: what there is to be seen, in
+    [0, 1], n x n pixels for each of the panel's, n at least 3. ppd: pixels per degree; without it the panel's, or 45.
+    eye: "scielab", "sharp" or "flip". Throws Error.
+    """
+    return _triad.perceived(
+        *_pixels("drives", drives), *_pixels("reference", reference), panel, number("ppd", ppd or 0), eye)
+
+
+def _pixels(what: str, picture: Film | Picture) -> tuple[NDArray[np.float32], bool]:
+    return image(what, picture.image if isinstance(picture, Film) else picture)
 
 
 def devices() -> list[Device]:

@@ -42,6 +42,20 @@ class Comparison:
     @property
     def flip(self) -> float: ...  # LDR-FLIP, 0 to 1
 
+class Perceived:
+    """What an eye sees of the difference between what a panel shows and should show, in about CIELAB units."""
+
+    @property
+    def error(self) -> float: ...  # root of lightness^2 + colour^2
+    @property
+    def lightness(self) -> float: ...  # root mean square
+    @property
+    def colour(self) -> float: ...  # root mean square of both colour axes: fringes
+    @property
+    def de_mean(self) -> float: ...
+    @property
+    def de_p95(self) -> float: ...
+
 class Device:
     """An OpenCL device with its driver."""
 
@@ -159,6 +173,10 @@ def read_image(path: str, /) -> tuple[NDArray[np.float32], bool]: ...
 def compare(
     picture: NDArray[np.float32], picture_encoded: bool, reference: NDArray[np.float32], reference_encoded: bool, /
 ) -> Comparison: ...
+def perceived(
+    drives: NDArray[np.float32], drives_encoded: bool, reference: NDArray[np.float32], reference_encoded: bool,
+    panel: str, ppd: float, eye: str, /,
+) -> Perceived: ...
 def reconstruct(bins: NDArray[np.float32], encoded: bool, options: _Words, /) -> NDArray[np.float32]: ...
 def devices() -> list[Device]: ...
 def panels() -> list[Panel]: ...
