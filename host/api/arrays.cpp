@@ -137,7 +137,10 @@ Scene make_scene(std::span<const Mesh> meshes, std::span<const Material> materia
         if (camera) scene.cameras.push_back(camera_of(*camera));
         validate(scene);
         RenderRequest request;
-        request.scene_path = "arrays";  // what pictures say of where they come from; nothing is read
+        // What pictures say of where they come from, and what goes on with a film of theirs looks for in
+        // vain.
+        request.scene_path = "arrays";
+        request.words = {request.scene_path};
         return Scene(
             std::make_shared<const Scene::Inside>(Scene::Inside{std::move(request), {std::move(scene), {}}}));
     });

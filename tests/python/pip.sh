@@ -13,4 +13,4 @@ python=$(for each in python3 /usr/bin/python3; do "$each" -c 'import venv, sysco
 cd "$folder"
 "$folder/venv/bin/python" -c 'import triad; print("installed:", triad.__version__, triad.__file__)' | grep -F "$folder/venv"
 "$folder/venv/bin/mypy" --strict -p triad # its types, as an editor sees them
-TRIAD=none "$folder/venv/bin/python" -m pytest -q -p no:cacheprovider "$source/tests/python"
+TRIAD=none "$folder/venv/bin/python" -m pytest -q -p no:cacheprovider "$folder/source/tests/python"

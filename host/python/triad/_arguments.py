@@ -69,11 +69,11 @@ def numbers(what: str, values: Any, shape: tuple[int | None, ...], dtype: Any, k
         raise ValueError(f"{what}: expected {expected}, not {found}")
     if np.dtype(dtype).kind == "u" and array.size and (array.min() < 0 or array.max() > np.iinfo(dtype).max):
         raise ValueError(f"{what}: expected numbers from 0 to {np.iinfo(dtype).max}, not {array.min()} to {array.max()}")
-    return np.ascontiguousarray(array, dtype)
+    return np.asarray(array, dtype, order="C")
 
 
 def number(what: str, value: Any) -> float:
-    return float(numbers(what, value, (), np.float64))
+    return float(numbers(what, value, (), np.float64).item())
 
 
 def vector(what: str, values: Any) -> list[float]:
