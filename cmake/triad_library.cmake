@@ -12,15 +12,20 @@ endfunction()
 function(triad_library name)
   cmake_parse_arguments(arg "" "" "ROOMS;EXTERNAL" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "/main.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/(main|counted_new).cpp$") # of programs alone
   add_library(triad_${name} STATIC ${sources})
+  # So that libtriad.so and the Python module can be made of it, and show nothing of it.
+  set_target_properties(triad_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   list(TRANSFORM arg_ROOMS PREPEND triad_ OUTPUT_VARIABLE rooms)
   target_link_libraries(triad_${name} PRIVATE triad_options triad_border ${rooms} ${arg_EXTERNAL})
   triad_include_root(triad_${name} PUBLIC ${name} ${CMAKE_CURRENT_SOURCE_DIR})
 endfunction()
 
-# triad_uses(TARGET ROOM...): the same for programs and tests.
+# triad_uses(TARGET ROOM...): the same for programs and tests, whose memory is counted.
 function(triad_uses target)
   list(TRANSFORM ARGN PREPEND triad_ OUTPUT_VARIABLE rooms)
   target_link_libraries(${target} PRIVATE triad_options triad_border ${rooms})
+  if("base" IN_LIST ARGN)
+    target_link_libraries(${target} PRIVATE triad_counted_new)
+  endif()
 endfunction()

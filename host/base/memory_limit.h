@@ -1,6 +1,6 @@
 #pragma once
-/// A limit on the memory that the process takes: what `new` gives out in large pieces, whoever asks for it,
-/// and what count_memory() tells of besides.
+/// A limit on the memory that the process takes: what `new` gives out in large pieces, whoever asks for it
+/// (counted_new.cpp, in programs alone), and what count_memory() tells of besides.
 #include <cstdint>
 #include <string>
 

@@ -25,24 +25,23 @@ void fill_standard_streams() {
         if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDONLY) != stream) std::abort();
 }
 
-int run_and_tell(const std::string& program, const std::function<int()>& work) {
+}  // namespace
+
+Failure failure_at_hand() {
     try {
-        return work();
+        throw;
     } catch (const Error& error) {
-        return complain(program, static_cast<int>(error.exit()), error.what());
+        return {static_cast<int>(error.exit()), error.what()};
     } catch (const std::bad_alloc& error) {
         const std::string said = error.what();
-        return complain(
-            program, static_cast<int>(Exit::memory),
-            said.find(' ') == std::string::npos ? "There is not enough memory for this work." : said);
+        return {static_cast<int>(Exit::memory),
+                said.find(' ') == std::string::npos ? "There is not enough memory for this work." : said};
     } catch (const std::filesystem::filesystem_error& error) {
-        return complain(program, static_cast<int>(Exit::scene), error.what());
+        return {static_cast<int>(Exit::scene), error.what()};
     } catch (const std::exception& error) {
-        return complain(program, internal_error, std::string("internal error: ") + error.what());
+        return {internal_error, std::string("internal error: ") + error.what()};
     }
 }
-
-}  // namespace
 
 void prepare_process() {
     fill_standard_streams();
@@ -52,7 +51,14 @@ void prepare_process() {
 }
 
 int exit_code_of(const std::string& program, const std::function<int()>& work) {
-    const int exit = run_and_tell(program, work);
+    const int exit = [&] {
+        try {
+            return work();
+        } catch (const std::exception&) {
+            const Failure failure = failure_at_hand();
+            return complain(program, failure.exit, failure.sentence);
+        }
+    }();
     const bool is_out = !std::cout.flush().fail() && std::fflush(stdout) == 0 && !std::ferror(stdout);
     if (is_out || exit != static_cast<int>(Exit::done)) return exit;
     return complain(program, static_cast<int>(Exit::scene),

@@ -14,6 +14,14 @@ void prepare_process();
 /// afterwards; where it could not be written, what was done is not.
 int exit_code_of(const std::string& program, const std::function<int()>& work);
 
+/// What a program ends with, and says, for want of anything better.
+struct Failure {
+    int exit;
+    std::string sentence;
+};
+/// Of the exception that is being handled.
+Failure failure_at_hand();
+
 /// "NAME: SENTENCE" on standard error. Returns `exit`.
 int complain(const std::string& program, int exit, const std::string& sentence);
 

@@ -1,5 +1,8 @@
 #include "cli/output_options.h"
 
+#include <charconv>
+#include <cmath>
+
 #include "cli/command_line.h"
 #include "cli/option_kinds.h"
 #include "cli/render_options.h"
@@ -25,12 +28,22 @@ void declare_frames(CLI::App& command, RenderRequest& o) {
         ->group(output_group);
 }
 
+void parse_exposure(const std::string& text, OutputStyle& style) {
+    style.automatic_exposure = text == "auto";
+    if (style.automatic_exposure) return;
+    const char *begin = text.data() + (text[0] == '+'), *end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(begin, end, style.exposure);
+    if (error != std::errc() || rest != end || !(std::abs(style.exposure) <= 64))
+        throw Error(Exit::usage, "--exposure " + text + ": auto, or a number from -64 to 64.");
+}
+
 }  // namespace
 
 void declare_style(CLI::App& command, OutputStyle& style) {
-    command.add_option("--exposure", style.exposure, "In EV, for tone-mapped outputs (default 0)")
-        ->check(number_within(-64, 64))
-        ->type_name("EV")
+    add_parsed(
+        command, "--exposure", "auto|EV",
+        "Of tone-mapped outputs, in powers of two (default 0); auto: the picture's mean becomes a mid grey",
+        [&style](const std::string& v) { parse_exposure(v, style); })
         ->group(output_group);
     add_word(command, "--tonemap", "Of tone-mapped outputs (default khronos: its PBR Neutral)",
              {"none", "aces", "agx", "khronos"}, style.tone_map)
@@ -46,6 +59,12 @@ void declare_style(CLI::App& command, OutputStyle& style) {
         [&style](const std::string& v) { style.denoise = denoiser_named(v); })
         ->group(output_group);
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
+}
+
+void declare_background(CLI::App& command, OutputStyle& style) {
+    add_parsed(command, "--background", "#RRGGBB", "Put this colour behind what is transparent",
+               [&style](const std::string& v) { style.background = parse_colour("--background", v); })
+        ->group(output_group);
 }
 
 void declare_outputs(CLI::App& command, RenderRequest& o) {

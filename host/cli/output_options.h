@@ -8,5 +8,7 @@ namespace triad {
 
 /// Declares --exposure, --tonemap, --bits and --half.
 void declare_style(CLI::App& command, OutputStyle& style);
+/// --background of what is rendered already.
+void declare_background(CLI::App& command, OutputStyle& style);
 
 }  // namespace triad

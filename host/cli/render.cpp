@@ -122,7 +122,7 @@ Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& 
            (film.bins() == 1 ? " bin per pixel" : " bins per pixel"));
     session.write(outcome);
     report_counters(film, request.max_depth);
-    tell_darkness(film, request.style.exposure);
+    if (!request.style.automatic_exposure) tell_darkness(film, request.style.exposure);
     if (!request.json_path.empty())
         write_report(request.json_path, "render", &session.device().info(),
                      Json::array({render_row(session, outcome)}));

@@ -1,15 +1,14 @@
 // triad resolve: pictures from a film or from any renderer's larger picture, without rendering.
-#include <algorithm>
 #include <memory>
 
 #include "base/check_outputs.h"
 #include "base/log.h"
 #include "cli/command_line.h"
-#include "cli/option_kinds.h"
 #include "cli/output_options.h"
 #include "cli/reconstruct_options.h"
 #include "session/metadata.h"
 #include "session/output.h"
+#include "session/resolve.h"
 
 namespace triad {
 namespace {
@@ -24,24 +23,11 @@ struct ResolveOptions {
 
 void resolve_film(ResolveOptions& o) {
     const Film film = load_film(o.source);
-    o.style.reconstruction = o.reconstruct.make(uvec2(film.bins_x, film.bins_y));
+    o.style.reconstruction = reconstruction_for(film, o.source, o.reconstruct);
     check_format_for(o.style.reconstruction, o.outputs);
-    const Reconstruction& method = o.style.reconstruction;
-    if (has_filtered_rays(film) != (method.ray_start == RayStart::filter))
-        throw Error(Exit::usage,
-                    has_filtered_rays(film)
-                        ? "The rays of " + o.source +
-                              " started by a panel's filter: name that panel and the method that rendered it "
-                              "(--reconstruct random3 or random3:shared)."
-                        : "--reconstruct " + method.method +
-                              " needs rays that start by its filter; the film " + o.source +
-                              " has others. Render it with that method.");
-    if (film.bins_x != method.bins_x || film.bins_y != method.bins_y)
-        throw Error(Exit::usage, "--bins: the film " + o.source + " has " + std::to_string(film.bins_x) +
-                                     "x" + std::to_string(film.bins_y) + " bins per pixel.");
     Device device = Device::open({.selector = o.device});
     Metadata metadata = metadata_of(film);
-    describe(method, metadata);
+    describe(o.style.reconstruction, metadata);
     describe(o.style.denoise, metadata);
     if (o.style.denoise != Denoiser::off && !film.has_guides)
         inform(
@@ -49,21 +35,6 @@ void resolve_film(ResolveOptions& o) {
             "render "
             "--denoise keeps it).");
     write_outputs(o.outputs, device, film, o.style, {}, metadata);
-}
-
-/// RGBA with associated colours, sRGB-encoded where the file holds integers.
-BinImage image_of(const Picture& picture, const std::string& path) {
-    const Channel* channels[] = {picture.find("R"), picture.find("G"), picture.find("B"), picture.find("A")};
-    if (std::count(channels, channels + 3, nullptr) > 0)
-        throw Error(Exit::scene, path + " has no channels R, G and B.");
-    BinImage image;
-    image.columns = picture.width, image.rows = picture.height;
-    image.encoded = picture.encoded;
-    image.rgba.resize(std::size_t(picture.width) * picture.height * 4, 1.0f);
-    for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; channels[c] && i < image.rgba.size() / 4; ++i)
-            image.rgba[4 * i + c] = channels[c]->values[i];
-    return image;
 }
 
 void resolve_image(ResolveOptions& o) {
@@ -77,14 +48,10 @@ void resolve_image(ResolveOptions& o) {
                     o.source +
                         " holds sRGB values that are tone-mapped already: --exposure and --tonemap "
                         "are for films and for EXR and HDR pictures.");
-    o.style.reconstruction = o.reconstruct.make();
+    o.style.reconstruction = reconstruction_for_pictures(o.reconstruct);
     check_format_for(o.style.reconstruction, o.outputs);
     const Reconstruction& method = o.style.reconstruction;
-    if (method.ray_start == RayStart::filter)
-        throw Error(Exit::usage,
-                    "--reconstruct " + method.method + " is a way to render, not to filter a picture.");
-    BinImage image = image_of(picture, o.source);
-    image.bins_x = method.bins_x, image.bins_y = method.bins_y;
+    const BinImage image = bins_of(picture, o.source, method);
     Device device = Device::open({.selector = o.device});
     Metadata metadata = {{"triad:version", TRIAD_VERSION}, {"Software", "triad " TRIAD_VERSION}};
     describe(method, metadata);
@@ -122,9 +89,7 @@ void add_resolve(CLI::App& app, Exit& exit) {
         ->group("Output");
     declare_style(*command, o->style);
     declare(*command, o->reconstruct);
-    add_parsed(*command, "--background", "#RRGGBB", "Put this colour behind what is transparent",
-               [o](const std::string& v) { o->style.background = parse_colour("--background", v); })
-        ->group("Output");
+    declare_background(*command, o->style);
     add_device(*command, o->device)->group("Machine");
     command->callback([o, command, &exit] {
         o->toned = command->count("--exposure") + command->count("--tonemap") > 0;

@@ -206,16 +206,22 @@ Source source_of(Device& device, const std::shared_ptr<const BinImage>& image, b
     return source;
 }
 
+/// The caller keeps it.
+std::shared_ptr<const BinImage> borrowed(const BinImage& image) {
+    return {&image, [](const BinImage*) {}};
+}
+
 /// The film and the device must live as long.
-Source source_of(Device& device, const Film& film, const OutputStyle& style) {
+Source source_of(Device& device, const Film& film, const OutputStyle& asked) {
+    const OutputStyle style = exposed(asked, film);
     Source source;
     if (style.denoise != Denoiser::off) {
         source = source_of(device, std::make_shared<const BinImage>(denoised(device, film, style.denoise)),
                            has_alpha(film), style);
     } else {
         source.alpha = has_alpha(film) && !style.background && !style.reconstruction.panel;
-        source.linear = [&] { return linear_of(device, film, style); };
-        source.display = [&] { return display_of(device, film, style); };
+        source.linear = [&device, &film, style] { return linear_of(device, film, style); };
+        source.display = [&device, &film, style] { return display_of(device, film, style); };
         source.linear_is_display = style.reconstruction.display_linear();
     }
     source.window.width = film.width, source.window.height = film.height;
@@ -233,6 +239,18 @@ void write_outputs(const std::vector<std::string>& paths, Device& device, const 
     Source source = source_of(device, film, style);
     source.layers = std::move(layers);
     write_all(paths, std::move(source), style, metadata);
+}
+
+Picture linear_picture(Device& device, const Film& film, const OutputStyle& style) {
+    return linear(source_of(device, film, style));
+}
+
+Picture linear_picture(Device& device, const BinImage& image, bool alpha, const OutputStyle& style) {
+    return linear(source_of(device, borrowed(image), alpha, style));
+}
+
+EncodedPicture encoded_picture(Device& device, const Film& film, const OutputStyle& style) {
+    return encoded(source_of(device, film, style), style);
 }
 
 std::vector<std::uint8_t> encode_output(const std::string& extension, Device& device, const Film& film,
@@ -260,8 +278,7 @@ void write_outputs(const std::vector<std::string>& paths, Device& device, const 
         style.exposure = automatic_exposure(image.rgba, image.columns), style.automatic_exposure = false;
         tell_exposure(style);
     }
-    const std::shared_ptr<const BinImage> kept(&image, [](const BinImage*) {});  // the caller's
-    write_all(paths, source_of(device, kept, alpha, style), style, metadata);
+    write_all(paths, source_of(device, borrowed(image), alpha, style), style, metadata);
 }
 
 }  // namespace triad

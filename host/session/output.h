@@ -44,6 +44,12 @@ std::vector<float> display_of(Device& device, const Film& film, const OutputStyl
 /// What an EXR holds: scene-linear RGBA, or what a display shows.
 std::vector<float> linear_of(Device& device, const Film& film, const OutputStyle& style);
 
+/// The values of an EXR file, without metadata.
+Picture linear_picture(Device& device, const Film& film, const OutputStyle& style);
+Picture linear_picture(Device& device, const BinImage& image, bool alpha, const OutputStyle& style);
+/// Those of a PNG file.
+EncodedPicture encoded_picture(Device& device, const Film& film, const OutputStyle& style);
+
 /// Writes the film to each path in the form that its extension asks for. `layers` go into EXR files,
 /// `metadata` into all. Where the film has alpha and the style no background colour, formats that can keep
 /// alpha do.

@@ -80,29 +80,30 @@ void light_as_asked(const RenderRequest& o, Scene& scene) {
 
 }  // namespace
 
-Scene load_scene(const RenderRequest& o, GltfReport* told) {
-    Scene scene;
+LoadedScene read_scene(const RenderRequest& o) {
     if (o.scene_path.empty()) {
         if (!o.variant.empty() || !o.animation.empty() || o.pose_time != 0)
             throw Error(Exit::usage,
                         "The built-in scene has no variants and no animations: --variant, --animation and "
                         "--pose-time go with a file.");
-        scene = builtin_scene();
-    } else {
-        GltfReport report;
-        scene = load_gltf(o.scene_path,
-                          {.scene = o.scene_index,
-                           .variant = o.variant,
-                           .animation = o.animation,
-                           .time = o.pose_time,
-                           .strict = o.strict,
-                           .max_texture = o.max_texture,
-                           .image_light = o.env_path.empty()},
-                          &report);
-        refuse_to_replace(o.outputs_named(), report.files);
-        for (const std::string& warning : report.warnings) warn(warning);
-        if (told) *told = std::move(report);
+        return {builtin_scene(), {}};
     }
+    LoadedScene loaded;
+    loaded.scene = load_gltf(o.scene_path,
+                             {.scene = o.scene_index,
+                              .variant = o.variant,
+                              .animation = o.animation,
+                              .time = o.pose_time,
+                              .strict = o.strict,
+                              .max_texture = o.max_texture,
+                              .image_light = o.env_path.empty()},
+                             &loaded.report);
+    refuse_to_replace(o.outputs_named(), loaded.report.files);
+    for (const std::string& warning : loaded.report.warnings) warn(warning);
+    return loaded;
+}
+
+void prepare_scene(const RenderRequest& o, Scene& scene) {
     for (const std::string& text : o.glass) apply_glass(scene, text);
     if (!o.env_path.empty()) scene.environment = load_environment(o.env_path, o.strict);
     if (const std::size_t dropped = validate(scene))
@@ -113,6 +114,11 @@ Scene load_scene(const RenderRequest& o, GltfReport* told) {
         validate(scene);
     }
     light_as_asked(o, scene);
+}
+
+Scene load_scene(const RenderRequest& o) {
+    Scene scene = read_scene(o).scene;
+    prepare_scene(o, scene);
     return scene;
 }
 

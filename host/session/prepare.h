@@ -10,10 +10,22 @@
 
 namespace triad {
 
-/// The scene with its light: environment of the command line, or a plain sky where nothing gives light.
-/// Warnings are logged; `report` gets them, too. Throws Error(scene), Error(unsupported), Error(usage) when
-/// an output would replace a file of the scene.
-Scene load_scene(const RenderRequest& options, GltfReport* report = nullptr);
+/// A scene as its file gives it, or the built-in one.
+struct LoadedScene {
+    Scene scene;
+    GltfReport report;
+};
+
+/// Warnings are logged. Throws Error(scene), Error(unsupported), Error(usage) when an output would replace a
+/// file of the scene.
+LoadedScene read_scene(const RenderRequest& options);
+
+/// What else is asked for: glass, light (the environment of the command line, or a plain sky where nothing
+/// gives light), lines as wide as the picture wants them. Throws Error.
+void prepare_scene(const RenderRequest& options, Scene& scene);
+
+/// Both.
+Scene load_scene(const RenderRequest& options);
 
 /// "MATERIAL=NAME": every material of that name becomes that glass. Throws Error(usage).
 void apply_glass(Scene& scene, const std::string& text);

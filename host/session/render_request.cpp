@@ -81,13 +81,14 @@ void complete(RenderRequest& o) {
     if (o.checkpoint && o.film_path.empty())
         throw Error(Exit::usage, "--checkpoint is how often a film is written: name one with --film.");
     // A film alone is a complete result: a part of a larger render.
-    if (!o.pixel && !o.profile && o.outputs.empty() && o.film_path.empty()) o.outputs.push_back("triad.png");
+    if (!o.pixel && !o.profile && !o.in_memory && o.outputs.empty() && o.film_path.empty())
+        o.outputs.push_back("triad.png");
     for (const std::string& path : o.outputs) check_format(path);
     if (std::find(o.aovs.begin(), o.aovs.end(), "all") != o.aovs.end())
         o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance", "error"};
     const bool exr =
         std::any_of(o.outputs.begin(), o.outputs.end(), [](const std::string& path) { return is_exr(path); });
-    if (!o.aovs.empty() && !exr)
+    if (!o.aovs.empty() && !exr && !o.in_memory)
         throw Error(Exit::usage, "--aov needs an .exr output to put the layers in; add -o FILE.exr.");
     check_denoise(o);
     if (o.share && (!o.spp || o.error || o.time || o.adaptive.value_or(false)))

@@ -27,8 +27,9 @@ struct RenderRequest {
     std::optional<double> checkpoint;  ///< seconds between two films that are written while rendering
     /// How a command line asked for this picture and this goal: kept with a film that is not complete.
     std::vector<std::string> words;
-    bool profile = false;  ///< events of all that devices do: Device::commands()
-    bool force = false;    ///< render on a device that computes wrong answers
+    bool profile = false;    ///< events of all that devices do: Device::commands()
+    bool in_memory = false;  ///< what render() returns is wanted: no picture need be named
+    bool force = false;      ///< render on a device that computes wrong answers
     std::optional<uvec2> size;
     std::optional<std::array<unsigned, 4>> crop;
     std::optional<std::array<unsigned, 2>>

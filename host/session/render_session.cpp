@@ -92,12 +92,13 @@ std::string universal_time() {
     return text;
 }
 
-Scene timed_scene(const RenderRequest& request, double& seconds, GltfReport& report) {
+LoadedScene timed_scene(const RenderRequest& request, std::optional<LoadedScene> before, double& seconds) {
     const Span span("load the scene", "load");
     const auto start = Clock::now();
-    Scene scene = load_scene(request, &report);
+    LoadedScene loaded = before ? std::move(*before) : read_scene(request);
+    prepare_scene(request, loaded.scene);
     seconds = since(start);
-    return scene;
+    return loaded;
 }
 
 /// Edges and the blur of the lens have noise; the planes have no other.
@@ -154,12 +155,18 @@ std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const
 }  // namespace
 
 RenderSession::RenderSession(RenderRequest request, OpenDevices* kept)
+    : RenderSession(std::move(request), std::optional<LoadedScene>(), kept) {}
+
+RenderSession::RenderSession(RenderRequest request, LoadedScene loaded, OpenDevices* kept)
+    : RenderSession(std::move(request), std::optional(std::move(loaded)), kept) {}
+
+RenderSession::RenderSession(RenderRequest request, std::optional<LoadedScene> loaded, OpenDevices* kept)
     : request_(checked(std::move(request))),
       lock_(lock_of(request_)),
-      scene_(timed_scene(request_, load_seconds_, loaded_)),
-      settings_(settings_of(request_, scene_)),
+      loaded_(timed_scene(request_, std::move(loaded), load_seconds_)),
+      settings_(settings_of(request_, scene())),
       devices_(opened(request_, kept)),
-      renderer_(std::make_unique<Renderer>(pointers(*devices_), scene_, settings_)),
+      renderer_(std::make_unique<Renderer>(pointers(*devices_), scene(), settings_)),
       goal_(request_.goal()) {
     if (!request_.film_path.empty())
         goal_.keep = {.write = [this](const Film& film) { keep(film); },
@@ -239,7 +246,18 @@ std::string RenderSession::scene_name() const {
                                        : std::filesystem::path(request_.scene_path).filename().string();
 }
 
+std::vector<Channel> RenderSession::layers_of(const RenderOutcome& outcome) {
+    return triad::layers_of(request_, *renderer_, outcome.film);
+}
+
 Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
+    Metadata metadata = facts_of(outcome);
+    describe(request_.style.reconstruction, metadata);
+    describe(request_.style.denoise, metadata);
+    return metadata;
+}
+
+Metadata RenderSession::facts_of(const RenderOutcome& outcome) const {
     const RenderResult& result = outcome.result;
     Metadata metadata = triad::metadata_of(outcome.film);
     metadata["triad:driver"] = joined(*devices_, [](const Device& d) { return d.info().driver; });
@@ -254,7 +272,8 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
     if (!request_.animation.empty()) metadata["triad:animation"] = request_.animation;
     if (request_.pose_time != 0) metadata["triad:pose_time"] = format("%.9g", request_.pose_time);
     metadata["triad:machine"] = machine_words();
-    if (loaded_.max_texture > 0) metadata["triad:max_texture"] = std::to_string(loaded_.max_texture);
+    if (const unsigned texels = loaded_.report.max_texture; texels > 0)
+        metadata["triad:max_texture"] = std::to_string(texels);
     unsigned units = 0;
     for (const Device& device : *devices_) units += device.info().compute_units;
     metadata["triad:compute_units"] = std::to_string(units);
@@ -263,10 +282,8 @@ Metadata RenderSession::metadata_of(const RenderOutcome& outcome) const {
         if (!work.failure.empty())
             lost += (lost.empty() ? "" : "; ") + work.device->name + ": " + work.failure;
     if (!lost.empty()) metadata["triad:failed_devices"] = lost;
-    describe(request_.style.reconstruction, metadata);
     if (result.perceived_noise) metadata["triad:perceived_noise"] = format("%.4g", *result.perceived_noise);
     if (result.trend) metadata["triad:trend"] = format("%.3f", *result.trend);
-    describe(request_.style.denoise, metadata);
     return metadata;
 }
 
@@ -276,8 +293,8 @@ void RenderSession::write(const RenderOutcome& outcome) {
         if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
     };
     try {
-        write_outputs(request_.outputs, renderer_->device(), outcome.film, request_.style,
-                      layers_of(request_, *renderer_, outcome.film), metadata_of(outcome));
+        write_outputs(request_.outputs, renderer_->device(), outcome.film, request_.style, layers_of(outcome),
+                      metadata_of(outcome));
     } catch (const Error&) {
         write_film();
         throw;

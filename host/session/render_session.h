@@ -10,6 +10,7 @@
 #include "device/device.h"
 #include "render/renderer.h"
 #include "session/metadata.h"
+#include "session/prepare.h"
 #include "session/render_request.h"
 
 namespace triad {
@@ -33,6 +34,8 @@ class RenderSession {
     /// scene and the film to go on from, opens the device and makes all ready. `kept`: devices of an earlier
     /// request for the same ones; those that are opened are kept there. Throws Error.
     explicit RenderSession(RenderRequest request, OpenDevices* kept = nullptr);
+    /// The same of a scene that was read before.
+    RenderSession(RenderRequest request, LoadedScene loaded, OpenDevices* kept = nullptr);
 
     /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
     /// film that the request names is written meanwhile (docs/film.md).
@@ -40,13 +43,17 @@ class RenderSession {
     /// Writes the pictures and the film that the request names, the film even where a picture fails.
     void write(const RenderOutcome& outcome);
 
+    /// The planes of --aov, as EXR channels.
+    std::vector<Channel> layers_of(const RenderOutcome& outcome);
     /// What the pictures say of themselves.
     Metadata metadata_of(const RenderOutcome& outcome) const;
+    /// The part of it that their reconstruction does not change.
+    Metadata facts_of(const RenderOutcome& outcome) const;
 
     const RenderRequest& request() const { return request_; }
     /// Of the request. What is measured or decided for its panel comes with it.
     const RenderGoal& goal() const { return goal_; }
-    const Scene& scene() const { return scene_; }
+    const Scene& scene() const { return loaded_.scene; }
     std::string scene_name() const;                             ///< the file's, without folders; "built-in"
     const Device& device() const { return devices_->front(); }  ///< the first of those that render
     Renderer& renderer() { return *renderer_; }
@@ -58,14 +65,14 @@ class RenderSession {
     RenderRequest request_;
     std::unique_ptr<FileLock> lock_;  ///< on the film that is written
     double load_seconds_ = 0, resumed_samples_ = 0;
-    GltfReport loaded_;
-    Scene scene_;
+    LoadedScene loaded_;
     RenderSettings settings_;
     OpenDevices devices_;
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
     std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes
 
+    RenderSession(RenderRequest request, std::optional<LoadedScene> loaded, OpenDevices* kept);
     void resume();
     void keep(const Film& film);
     RenderResult fill_holes(const std::function<bool(const Progress&)>& report);

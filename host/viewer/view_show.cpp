@@ -26,6 +26,8 @@ std::string text_of(const std::vector<std::uint8_t>& bytes) { return {bytes.begi
 void ViewLoop::show(const Film& film, Shown what) {
     const auto start = Clock::now();
     const bool is_preview = what == Shown::preview;
+    request_.style = exposed(request_.style, film);  // once: a picture that grows keeps its light
+    facts_.exposure = request_.style.exposure;
     OutputStyle style = request_.style;
     if (is_preview) style.reconstruction = {};
     ViewFrame frame;

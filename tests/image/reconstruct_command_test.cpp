@@ -124,6 +124,33 @@ TEST(ReconstructCommand, any_larger_picture_is_filtered_for_a_panel) {
         std::string::npos);
 }
 
+TEST(ReconstructCommand, an_automatic_exposure_is_that_of_the_film_and_is_told) {
+    const TemporaryFolder folder;
+    const auto path = [&](const char* name) { return (folder / name).string(); };
+    done("render --size 48x32 --spp 4 --film " + path("a.triadfilm") + " -o " + path("as_it_is.exr"));
+    const Outcome told = done("resolve " + path("a.triadfilm") + " --exposure auto -o " + path("auto.png") +
+                              " -o " + path("auto.exr"));
+    const std::string chosen = read_picture(folder / "auto.png").metadata.at("triad:exposure");
+    EXPECT_NE(told.output.find("Exposure " + std::string(chosen[0] == '-' ? "" : "+") + chosen),
+              std::string::npos)
+        << told.output;
+    done("resolve " + path("a.triadfilm") + " --exposure " + chosen + " -o " + path("given.png"));
+    EXPECT_EQ(worst_difference(read_picture(folder / "auto.png"), read_picture(folder / "given.png")), 0.0);
+    // Scene-linear values have no exposure. Those of a film and of its picture are the same light.
+    EXPECT_EQ(read_picture(folder / "auto.exr").metadata.count("triad:exposure"), 0u);
+    EXPECT_EQ(worst_difference(read_picture(folder / "auto.exr"), read_picture(folder / "as_it_is.exr")),
+              0.0);
+    done("resolve " + path("auto.exr") + " --bins 1x1 --exposure auto -o " + path("of_exr.png"));
+    EXPECT_EQ(read_picture(folder / "of_exr.png").metadata.at("triad:exposure"), chosen);
+    for (const char* bad : {"bright", "nan", "1e9", "3x", "--"})
+        EXPECT_NE(done(std::string("resolve ") + path("a.triadfilm") + " --exposure=" + bad + " -o " +
+                           path("bad.png"),
+                       1)
+                      .output.find("auto, or a number from -64 to 64"),
+                  std::string::npos)
+            << bad;
+}
+
 TEST(ReconstructCommand, the_bench_says_where_it_finds_no_pictures) {
     const TemporaryFolder folder;
     const std::string empty = (folder / "").string(), absent = (folder / "absent").string();

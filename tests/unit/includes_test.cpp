@@ -50,15 +50,18 @@ const std::map<std::string, Names> below = [] {
         {"viewer", with(measured, {"render", "display", "check", "io", "session", "report"})},
         {"cli", with(measured, {"render", "display", "capture", "check", "bench", "io", "session", "report",
                                 "viewer", "replay"})},
+        {"api", with(trace, {"metric", "render", "display", "check", "io", "session", "cli"})},
+        {"python", {}},  // what the library shows
         {"replay", with(measured, {"capture", "check"})},
     };
 }();
 
 /// Packages and their owners: how their headers begin.
 const std::map<std::string, Names> owners = {
-    {"CL/", {"device"}},       {"tiny_gltf", {"io"}},       {"OpenImageIO/", {"io"}}, {"draco/", {"io"}},
-    {"meshoptimizer", {"io"}}, {"CLI/", {"cli", "replay"}}, {"xxhash", {"base"}},     {"glm/", {"base"}},
-    {"fftw3", {"panel"}},      {"zstd", {"capture"}},       {"httplib", {"viewer"}}};
+    {"CL/", {"device"}},   {"tiny_gltf", {"io"}},     {"OpenImageIO/", {"io"}},
+    {"draco/", {"io"}},    {"meshoptimizer", {"io"}}, {"CLI/", {"cli", "replay", "api"}},
+    {"xxhash", {"base"}},  {"glm/", {"base"}},        {"fftw3", {"panel"}},
+    {"zstd", {"capture"}}, {"httplib", {"viewer"}},   {"pybind11/", {"python"}}};
 
 /// Which folders of kernels/ the headers of a folder may include from, beside itself and common. Programs
 /// (.cl) compose them all.
@@ -101,6 +104,10 @@ std::vector<std::string> violations(const std::string& path, const std::string& 
             else if (below.contains(target) && target != folder && !rule->second.contains(target))
                 wrong = true;
             if (target == "kernels" && !border.contains(include)) wrong = true;
+            // What is installed stands alone.
+            if (path.starts_with("host/api/triad/") && !include.starts_with("triad/") &&
+                include.find_first_of("/.") != std::string::npos)
+                wrong = true;
             for (const auto& [prefix, owner] : owners)
                 if (include.starts_with(prefix) && !owner.contains(folder)) wrong = true;
         } else if (top == "kernels") {
@@ -152,6 +159,10 @@ TEST(Includes, rules_catch_what_they_forbid) {
     EXPECT_TRUE(bad("host/session/a.cpp", "#include \"report/report.h\"\n"));
     EXPECT_TRUE(bad("host/session/a.cpp", "#include <CLI/CLI.hpp>\n"));
     EXPECT_TRUE(bad("host/io/a.cpp", "#include \"device/device.h\"\n"));
+    EXPECT_TRUE(bad("host/api/triad/a.h", "#include \"base/error.h\"\n"));
+    EXPECT_TRUE(bad("host/api/triad/a.h", "#include <CL/cl.h>\n"));
+    EXPECT_TRUE(bad("host/python/a.cpp", "#include \"session/prepare.h\"\n"));
+    EXPECT_FALSE(bad("host/api/triad/a.h", "#include <vector>\n#include \"triad/image.h\"\n"));
     EXPECT_TRUE(bad("host/render/a.cpp", "#include <OpenImageIO/imageio.h>\n"));
     EXPECT_TRUE(bad("host/cli/a.cpp", "#include <tiny_gltf.h>\n"));
     EXPECT_TRUE(bad("host/replay/a.cpp", "#include \"io/io.h\"\n"));
