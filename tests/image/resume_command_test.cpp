@@ -114,7 +114,7 @@ TEST(ResumeCommand, every_signal_that_asks_to_end_leaves_a_film_and_the_command_
         ASSERT_TRUE(render.says("\"progress\"")) << render.said();
         render.send(signal);
         const std::string go_on =
-            "To go on: triad render --resume " + film.string() + " --threads=1 --progress=json";
+            "To go on: triad render --resume " + film.string() + " --progress=json --threads=1";
         EXPECT_TRUE(render.says(go_on)) << render.said();
         EXPECT_EQ(render.wait(), 75) << signal;
         expect_contains(refused("info " + film.string(), 0), "begun as: triad render --spp=3000 --seed=4");
