@@ -30,10 +30,10 @@ bool must_be_float(const std::string& channel) {
 
 /// Of Triad's names those whose values are numbers. All are double, which holds every count that there is.
 const std::set<std::string> numbers{
-    "triad:spp",         "triad:spp_min",   "triad:spp_max",        "triad:samples",       "triad:rays",
-    "triad:not_finite",  "triad:saturated", "triad:truncated",      "triad:cut_energy",    "triad:relmse",
-    "triad:trend",       "triad:seed",      "triad:seconds",        "triad:compute_units", "triad:ppd",
-    "triad:max_texture", "triad:pose_time", "triad:perceived_noise"};
+    "triad:spp",         "triad:spp_min",   "triad:spp_max",   "triad:samples",        "triad:rays",
+    "triad:not_finite",  "triad:saturated", "triad:truncated", "triad:cut_energy",     "triad:relmse",
+    "triad:trend",       "triad:seed",      "triad:seconds",   "triad:compute_units",  "triad:ppd",
+    "triad:max_texture", "triad:exposure",  "triad:pose_time", "triad:perceived_noise"};
 
 /// pbrt-v4's names keep pbrt-v4's types (util/image.cpp), OpenEXR's have its own; other texts are strings.
 void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const std::string& value) {

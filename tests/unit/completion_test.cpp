@@ -132,6 +132,7 @@ TEST_F(Completion, fish_knows_commands_options_words_and_files) {
         std::string first;
         for (const std::string& answer : lines_of(outcome.output))
             first += answer.substr(0, answer.find('\t')) + "|";
+        std::erase(first, '\\');  // which some versions write in front of blanks
         return first;
     };
     EXPECT_EQ(ask("triad ren"), "render|");

@@ -43,8 +43,10 @@ TEST(Manual, is_a_page_that_man_shows_without_a_complaint) {
         const Outcome lint = run_program("mandoc", "-T lint -W warning " + page);
         EXPECT_EQ(lint.exit, 0) << lint.output;
         EXPECT_EQ(lint.output, "");
-        const Outcome shown = run_program("mandoc", "-T ascii " + page + " | col -b");
-        EXPECT_NE(shown.output.find("--kernels DIR"), std::string::npos) << program;
+        const Outcome shown = run_program("mandoc", "-T ascii " + page);
+        // What is bold or underlined is typed twice.
+        const std::string plain = std::regex_replace(shown.output, std::regex(".\b"), "");
+        EXPECT_NE(plain.find("--kernels DIR"), std::string::npos) << program;
     }
 }
 
