@@ -3,7 +3,6 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc/triad)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${documents})
 install(FILES LICENSE DESTINATION ${documents} RENAME copyright) # where Debian looks for it
 install(DIRECTORY docs DESTINATION ${documents})
-install(DIRECTORY ${PROJECT_BINARY_DIR}/share/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} OPTIONAL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME triad)
