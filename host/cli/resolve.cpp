@@ -4,6 +4,7 @@
 #include "base/check_outputs.h"
 #include "base/log.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "cli/output_options.h"
 #include "cli/reconstruct_options.h"
 #include "session/metadata.h"
