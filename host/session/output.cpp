@@ -211,6 +211,13 @@ std::shared_ptr<const BinImage> borrowed(const BinImage& image) {
     return {&image, [](const BinImage*) {}};
 }
 
+/// An encoded picture is exposed already.
+OutputStyle exposed(OutputStyle style, const BinImage& image) {
+    if (style.automatic_exposure && !image.encoded)
+        style.exposure = automatic_exposure(image.rgba, image.columns), style.automatic_exposure = false;
+    return style;
+}
+
 /// The film and the device must live as long.
 Source source_of(Device& device, const Film& film, const OutputStyle& asked) {
     const OutputStyle style = exposed(asked, film);
@@ -246,7 +253,7 @@ Picture linear_picture(Device& device, const Film& film, const OutputStyle& styl
 }
 
 Picture linear_picture(Device& device, const BinImage& image, bool alpha, const OutputStyle& style) {
-    return linear(source_of(device, borrowed(image), alpha, style));
+    return linear(source_of(device, borrowed(image), alpha, exposed(style, image)));
 }
 
 EncodedPicture encoded_picture(Device& device, const Film& film, const OutputStyle& style) {
@@ -273,11 +280,9 @@ std::vector<std::uint8_t> encode_output(const std::string& extension, Device& de
 }
 
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
-                   OutputStyle style, const Metadata& metadata) {
-    if (style.automatic_exposure && !image.encoded) {
-        style.exposure = automatic_exposure(image.rgba, image.columns), style.automatic_exposure = false;
-        tell_exposure(style);
-    }
+                   const OutputStyle& asked, const Metadata& metadata) {
+    const OutputStyle style = exposed(asked, image);
+    if (asked.automatic_exposure && !style.automatic_exposure) tell_exposure(style);
     write_all(paths, source_of(device, borrowed(image), alpha, style), style, metadata);
 }
 

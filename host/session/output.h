@@ -63,6 +63,6 @@ std::vector<std::uint8_t> encode_output(const std::string& extension, Device& de
 /// The same from any picture's bins, `name` for messages. Formats of linear values hold what a display shows
 /// where the bins are tone-mapped already.
 void write_outputs(const std::vector<std::string>& paths, Device& device, const BinImage& image, bool alpha,
-                   OutputStyle style, const Metadata& metadata);
+                   const OutputStyle& style, const Metadata& metadata);
 
 }  // namespace triad

@@ -217,6 +217,16 @@ TEST(Library, filters_a_larger_picture) {
     EXPECT_NEAR(mean.pixels[2], 0.25f, 1e-6);
 }
 
+TEST(Library, exposes_pictures_by_themselves) {
+    const api::Image dark{2, 2, 3, std::vector<float>(12, 0.01f)};
+    const auto shown = [&](const char* exposure) {
+        return api::reconstruct(dark, {{"reconstruct", "pane:1"}, {"exposure", exposure}}).pixels[0];
+    };
+    EXPECT_GT(shown("auto"), 5 * shown("0"));
+    const api::Film film = rendered({{"exposure", "auto"}});
+    EXPECT_FALSE(film.bitmap().bytes == film.bitmap({{"exposure", "0"}}).bytes);
+}
+
 TEST(Library, says_what_there_is) {
     ASSERT_FALSE(api::devices().empty());
     bool chosen = false;
