@@ -53,7 +53,7 @@ void furnace_of_stretched_metal(Check& check) {
     for (float roughness : {0.05f, 0.2f, 0.5f, 0.8f})
         for (float strength : {0.3f, 0.7f, 1.0f})
             expect_white(check, "stretched metal",
-                         {.metallic = 1, .roughness = roughness, .anisotropy = strength}, 0.0085, 0.003,
+                         {.metallic = 1, .roughness = roughness, .anisotropy = strength}, 0.0085, 0.0025,
                          {0.0f, 0.06f, 0.125f, 0.2f, 0.25f});
 }
 

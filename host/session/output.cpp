@@ -138,9 +138,24 @@ std::vector<float> linear_of(Device& device, const Film& film, const OutputStyle
 
 namespace {
 
-/// What was applied to values that are shown.
-void add_exposure(const OutputStyle& style, Metadata& metadata) {
+/// With what was applied to values that are shown.
+Metadata of_display(Metadata metadata, const OutputStyle& style) {
     if (style.exposure != 0) metadata["triad:exposure"] = format("%g", style.exposure);
+    return metadata;
+}
+Picture linear(const Source& source, const OutputStyle& style, const Metadata& metadata) {
+    Picture picture = linear(source);
+    picture.metadata = metadata;
+    if (source.linear_is_display) {
+        picture.metadata = of_display(metadata, style);
+        picture.metadata["triad:values"] = "display-linear";
+    }
+    return picture;
+}
+EncodedPicture encoded(const Source& source, const OutputStyle& style, const Metadata& metadata) {
+    EncodedPicture picture = encoded(source, style);
+    picture.metadata = of_display(metadata, style);
+    return picture;
 }
 void tell_exposure(const OutputStyle& style) {
     inform(format("Exposure %+.1f EV, from the picture's mean luminance", style.exposure));
@@ -154,12 +169,7 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
         const std::string extension = extension_of(path);
         if (is_linear_format(extension)) {
             if (!linear_picture) {
-                linear_picture = linear(source);
-                linear_picture->metadata = metadata;
-                if (source.linear_is_display) {
-                    linear_picture->metadata["triad:values"] = "display-linear";
-                    add_exposure(style, linear_picture->metadata);
-                }
+                linear_picture = linear(source, style, metadata);
                 std::move(source.layers.begin(), source.layers.end(),
                           std::back_inserter(linear_picture->channels));
             }
@@ -171,11 +181,7 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
             }
             continue;
         }
-        if (!display) {
-            display = encoded(source, style);
-            display->metadata = metadata;
-            add_exposure(style, display->metadata);
-        }
+        if (!display) display = encoded(source, style, metadata);
         if (path == "-")
             write_standard_output(encode_picture(extension, *display));
         else
@@ -264,18 +270,8 @@ std::vector<std::uint8_t> encode_output(const std::string& extension, Device& de
                                         const OutputStyle& asked, const Metadata& metadata) {
     const OutputStyle style = exposed(asked, film);
     const Source source = source_of(device, film, style);
-    if (!is_linear_format(extension)) {
-        EncodedPicture picture = encoded(source, style);
-        picture.metadata = metadata;
-        add_exposure(style, picture.metadata);
-        return encode_picture(extension, picture);
-    }
-    Picture picture = linear(source);
-    picture.metadata = metadata;
-    if (source.linear_is_display) {
-        picture.metadata["triad:values"] = "display-linear";
-        add_exposure(style, picture.metadata);
-    }
+    if (!is_linear_format(extension)) return encode_picture(extension, encoded(source, style, metadata));
+    const Picture picture = linear(source, style, metadata);
     return extension == ".hdr" ? encode_hdr(picture) : encode_exr(picture, style.half);
 }
 

@@ -31,7 +31,7 @@ typedef struct BaseBsdf {
     Colour film;  /* share of the film times its weight, 0: none */
     Colour film0; /* reflectance of the base under the film at normal incidence */
     FilmInput film_input;
-    float film_share; /* of a transmitter's reflectance */
+    float film_share; /* 0: there is none */
 #endif
     float stretch;    /* ggx_stretch of wo */
     float cap;        /* ggx_cap of wo; 1: normals are not bounded */
@@ -42,7 +42,6 @@ typedef struct BaseBsdf {
     uint transmits;
     uint solid;
     float eta;                 /* index beyond the surface over index before it */
-    float body_scale;          /* of radiance that crosses: 1 / eta^2 of a solid body, else 1 */
     Colour fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
     Colour transmitter;        /* its weight, energy compensation included */
     Colour tint;
@@ -50,23 +49,34 @@ typedef struct BaseBsdf {
 #endif
 } BaseBsdf;
 
+#if BSDF_FILM
+/* The film's reflectance, c the cosine on wo's side: that of outside, for a reflection has no side. */
+TRIAD_FUNCTION Colour base_film(const BaseBsdf* b, float c) {
 #if BSDF_TRANSMISSION
+    if (b->transmits && b->eta < 1.0f) c = fresnel_refracted_cosine(c, b->eta);
+#endif
+    return film_reflectance(&b->film_input, b->film0, c);
+}
+#endif
+
+#if BSDF_TRANSMISSION
+/* Of radiance that crosses. */
+TRIAD_FUNCTION float base_body_scale(const BaseBsdf* b) { return b->solid ? 1.0f / (b->eta * b->eta) : 1.0f; }
 /* One interface without a film, whose dielectric of this index reflects r. */
 TRIAD_FUNCTION Colour base_interface_fresnel(const BaseBsdf* b, float r) {
     /* Brewster's dip goes below normal incidence */
     return colour_at_least(colour_fma_scale(r, b->fresnel1, b->fresnel0), colour_splat(0.0f));
 }
-/* Fresnel factor of the transmitting part, c the cosine on wo's side. */
-TRIAD_FUNCTION Colour base_transmitter_fresnel(const BaseBsdf* b, float c) {
+/* Fresnel factor of the transmitting part, c the cosine on wo's side; film: base_film of it, where there is
+ * one. */
+TRIAD_FUNCTION Colour base_transmitter_fresnel(const BaseBsdf* b, float c, Colour film) {
     float r = fresnel_dielectric(c, b->eta);
     if (r >= 1.0f) return colour_splat(1.0f);
     Colour f = base_interface_fresnel(b, r);
 #if BSDF_FILM
-    if (b->film_share > 0.0f) { /* as seen from outside: a reflection has no side */
-        float outside = b->eta < 1.0f ? fresnel_refracted_cosine(c, b->eta) : c;
-        f = colour_fma_scale(b->film_share,
-                             colour_sub(film_reflectance(&b->film_input, b->film0, outside), f), f);
-    }
+    f = colour_fma_scale(b->film_share, colour_sub(film, f), f);
+#else
+    (void)film;
 #endif
     /* both faces of a thin wall and all reflections between them: R = 2F / (1 + F), T = (1 - F) / (1 + F) */
     return b->solid ? f : colour_div(colour_scale(f, 2.0f), colour_add(colour_splat(1.0f), f));
@@ -76,18 +86,23 @@ TRIAD_FUNCTION Colour base_transmitter_fresnel(const BaseBsdf* b, float c) {
 #if TRIAD_SPECULAR
 /* What a microfacet reflects and lets through (change of radiance not included) at wo.h = c. */
 TRIAD_FUNCTION void base_microfacet(const BaseBsdf* b, float c, Colour* reflected, Colour* transmitted) {
+    Colour film = colour_splat(0.0f);
     *reflected = colour_fma_scale(fresnel_schlick_weight(c), b->specular1, b->specular0);
 #if BSDF_FILM
-    if (colour_largest(b->film) > 0.0f)
-        *reflected = colour_fma(b->film, film_reflectance(&b->film_input, b->film0, c), *reflected);
+    if (b->film_share > 0.0f) {
+        film = base_film(b, c);
+        *reflected = colour_fma(b->film, film, *reflected);
+    }
 #endif
     *transmitted = colour_splat(0.0f);
 #if BSDF_TRANSMISSION
     if (b->transmits) {
-        Colour f = base_transmitter_fresnel(b, c);
+        Colour f = base_transmitter_fresnel(b, c, film);
         *reflected = colour_add(*reflected, colour_mul(b->transmitter, f));
         *transmitted = colour_mul(colour_mul(b->transmitter, b->tint), colour_complement(f));
     }
+#else
+    (void)film;
 #endif
 }
 

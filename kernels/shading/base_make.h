@@ -5,10 +5,10 @@
 #include "shading/base_bsdf.h"
 
 #if BSDF_FILM
-#define FILM_NORMALS 16u
+#define FILM_NORMALS 24u
 /* Of that many visible normals of the rough base. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k) {
-    const float turn = (float)k * 0.618034f;
+    const float turn = ((float)k + 0.5f) * 0.618034f;
     return base_normal(b, wo, 1.0f,
                        vec2_make(turn - math_floor(turn), ((float)k + 0.5f) * (1.0f / FILM_NORMALS)));
 }
@@ -17,21 +17,19 @@ TRIAD_FUNCTION float base_unmasked(const BaseBsdf* b, Vec3 wo, Vec3 w) {
     if (w.z <= 0.0f) return 0.0f;
     return 0.5f * (wo.z + b->stretch) * ggx_masking(wo.z, b->stretch, w.z, base_stretch(b, w));
 }
-/* Mean of the film's reflectance over the reflections of the rough base, weighted as they are seen. */
+/* Mean of the film's reflectance over the reflections of the base, weighted as they are seen. */
 TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
-    if (b->smooth) return film_reflectance(&b->film_input, b->film0, wo.z);
+    if (b->smooth) return base_film(b, wo.z);
     Colour sum = colour_splat(0.0f);
     float weights = 0.0f;
     for (uint k = 0u; k < FILM_NORMALS; ++k) {
         const Vec3 h = base_film_normal(b, wo, k);
-        const float g = base_unmasked(b, wo, vec3_reflect(wo, h));
-        if (g <= 0.0f) continue;
-        sum = colour_fma_scale(g, film_reflectance(&b->film_input, b->film0, math_min(vec3_dot(wo, h), 1.0f)),
-                               sum);
-        weights += g;
+        const float seen = base_unmasked(b, wo, vec3_reflect(wo, h));
+        if (seen <= 0.0f) continue;
+        sum = colour_fma_scale(seen, base_film(b, math_min(vec3_dot(wo, h), 1.0f)), sum);
+        weights += seen;
     }
-    return weights > 0.0f ? colour_scale(sum, 1.0f / weights)
-                          : film_reflectance(&b->film_input, b->film0, wo.z);
+    return weights > 0.0f ? colour_scale(sum, 1.0f / weights) : base_film(b, wo.z);
 }
 #if BSDF_TRANSMISSION
 /* What a film of share 1 adds to the albedo of a rough body: it reflects more than the interface that the
@@ -42,25 +40,22 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
         const Vec3 h = base_film_normal(b, wo, k);
         const float c = math_min(vec3_dot(wo, h), 1.0f), beyond = fresnel_refracted_cosine(c, b->eta);
         if (beyond <= 0.0f) continue; /* total reflection is that, with a film too */
-        const Vec3 refracted =
-            vec3_sub(vec3_scale(wo, 1.0f / b->eta), vec3_scale(h, c / b->eta - beyond)); /* its opposite */
-        const Colour film = film_reflectance(&b->film_input, b->film0, b->eta < 1.0f ? beyond : c);
-        const Colour rise = colour_sub(film, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
-        sum = colour_fma_scale(base_unmasked(b, wo, vec3_reflect(wo, h)) - base_unmasked(b, wo, refracted),
-                               rise, sum);
+        float more = base_unmasked(b, wo, vec3_reflect(wo, h));
+        more -= base_unmasked(
+            b, wo,
+            vec3_sub(vec3_scale(wo, 1.0f / b->eta), vec3_scale(h, c / b->eta - beyond))); /* its opposite */
+        Colour rise = base_film(b, c);
+        rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
+        sum = colour_fma_scale(more, rise, sum);
     }
     return colour_scale(sum, 1.0f / FILM_NORMALS);
 }
 #endif
-#endif
 
-#if BSDF_FILM
-/* The film's share of what the microfacets reflect; `kept` is the albedo of the rough base with Fresnel
- * factor 1, coat_albedo of what covers the Lambert lobe. Returns the albedo of that share. */
-TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float opaque, float kept,
+/* The film's share of what the microfacets reflect, `mean` of it; `kept` is the albedo of the rough base with
+ * Fresnel factor 1, coat_albedo of what covers the Lambert lobe. Returns the albedo of that share. */
+TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean, float opaque, float kept,
                                    Colour* coat_albedo) {
-    b->film_input = in->film_input;
-    Colour mean = base_film_mean(b, wo);
     Colour whole = colour_fma_scale((1.0f - kept) / kept, mean, colour_splat(1.0f));
     Colour film_albedo = colour_scale(colour_mul(whole, mean), in->film * kept);
     float weight = fma(opaque, in->specular, in->metallic);
@@ -97,7 +92,8 @@ TRIAD_FUNCTION float base_lambert_albedo(const BaseBsdf* b) {
 
 #if BSDF_TRANSMISSION
 /* The transmitter's share of the core: a dielectric of reflectance coat0 at normal incidence, whose
- * `reflected` is the albedo of GGX with Fresnel factor 1. Returns an estimate of its albedo. */
+ * `reflected` is the albedo of GGX with Fresnel factor 1. Returns an estimate of its albedo, without a film.
+ */
 TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float transmitter,
                                           Colour coat0, float reflected, global const float* albedo_tables) {
     const float f0 = fresnel_normal(in->ior);
@@ -105,8 +101,6 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
     b->fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
     b->fresnel0 = colour_fma_scale(-f0, b->fresnel1, coat0);
     b->tint = in->base_colour;
-    b->eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
-    b->body_scale = in->solid ? 1.0f / (b->eta * b->eta) : 1.0f;
     b->transmitter = colour_splat(transmitter);
     if (!b->smooth) {
         Colour kept = colour_splat(reflected);
@@ -125,9 +119,39 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
          * that end there make the others heavy, bounce after bounce: the cap leaves most of them out. */
         if (in->solid && in->inside) b->p_cap = math_saturate(1.0f - colour_average(kept));
     }
-    Colour f = base_transmitter_fresnel(b, wo.z);
+    Colour film = colour_splat(0.0f);
+#if BSDF_FILM
+    if (b->film_share > 0.0f) film = base_film(b, wo.z);
+#endif
+    Colour f = base_transmitter_fresnel(b, wo.z, film);
     Colour seen = colour_add(f, colour_mul(colour_complement(f), b->tint));
     return transmitter * math_max(colour_average(seen), BSDF_MIN_TRANSMITTER);
+}
+#endif
+
+#if TRIAD_SPECULAR
+/* Roughness of the core and what it lets through. Returns the transmitter's share. */
+TRIAD_FUNCTION float base_microfacets(BaseBsdf* b, const BsdfInput* in, float f0) {
+    b->alpha = math_square(in->roughness);
+    b->smooth = b->alpha < BSDF_SMOOTH_ALPHA;
+#if BSDF_STRETCHED
+    b->alpha_x = fma(1.0f - b->alpha, math_square(in->anisotropy), b->alpha);
+    if (b->smooth && b->alpha_x >= BSDF_SMOOTH_ALPHA) b->smooth = 0u, b->alpha = BSDF_SMOOTH_ALPHA;
+#endif
+#if BSDF_FILM
+    b->film = colour_splat(0.0f);
+    b->film_share = 0.0f;
+#endif
+#if BSDF_TRANSMISSION
+    const float transmitter = in->ior >= 1.0f && f0 < 1.0f ? (1.0f - in->metallic) * in->transmission : 0.0f;
+    b->transmits = transmitter > 0.0f;
+    b->solid = in->solid;
+    if (b->transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b->smooth = 1u;
+    return transmitter;
+#else
+    (void)f0;
+    return 0.0f;
+#endif
 }
 #endif
 
@@ -144,32 +168,9 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     float f0 = fresnel_normal(in->ior);
     Colour coat0 =
         colour_scale(colour_at_most(colour_scale(in->specular_colour, f0), colour_splat(1.0f)), in->specular);
-    Colour coat90 = colour_splat(in->specular);
-    float dielectric = 1.0f - in->metallic;
-    float opaque = dielectric;
-    b.alpha = math_square(in->roughness);
-    b.smooth = b.alpha < BSDF_SMOOTH_ALPHA;
-#if BSDF_STRETCHED
-    b.alpha_x = fma(1.0f - b.alpha, math_square(in->anisotropy), b.alpha);
-    if (b.smooth && b.alpha_x >= BSDF_SMOOTH_ALPHA) b.smooth = 0u, b.alpha = BSDF_SMOOTH_ALPHA;
-#endif
-#if BSDF_FILM
-    b.film = colour_splat(0.0f);
-    b.film_share = 0.0f;
-#endif
-#if BSDF_TRANSMISSION
-    float transmitter = in->ior >= 1.0f && f0 < 1.0f ? dielectric * in->transmission : 0.0f;
-    opaque = dielectric - transmitter;
-    b.transmits = transmitter > 0.0f;
-    b.solid = in->solid;
-    if (b.transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b.smooth = 1u;
-#endif
-    uint lambert = in->metallic == 0.0f && in->specular == 0.0f;
-#if BSDF_TRANSMISSION
-    lambert = lambert && !b.transmits;
-#endif
-    if (lambert) { /* what follows would come to the same bits */
-        b.specular0 = b.specular1 = colour_splat(0.0f);
+    const float transmitter = base_microfacets(&b, in, f0), opaque = 1.0f - in->metallic - transmitter;
+    if (in->metallic == 0.0f && in->specular == 0.0f && transmitter == 0.0f) {
+        b.specular0 = b.specular1 = colour_splat(0.0f); /* what follows would come to the same bits */
         b.p_specular = 0.0f;
         base_lambert(&b, in, opaque);
 #if BSDF_LAYERED
@@ -189,28 +190,26 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     Colour metal0 = in->base_colour;
     Colour metal = colour_scale(colour_fma_scale(missing, metal0, colour_splat(1.0f)), in->metallic);
     Colour coat = colour_fma_scale(missing, coat0, colour_splat(1.0f));
-    Colour opaque_coat = colour_scale(coat, opaque), coat_rise = colour_sub(coat90, coat0);
+    Colour opaque_coat = colour_scale(coat, opaque),
+           coat_rise = colour_sub(colour_splat(in->specular), coat0);
     b.specular0 = colour_fma(metal, metal0, colour_mul(opaque_coat, coat0));
     b.specular1 = colour_fma(metal, colour_complement(metal0), colour_mul(opaque_coat, coat_rise));
     Colour coat_albedo =
         colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
+    b.stretch = base_stretch(&b, wo);
+#if BSDF_TRANSMISSION
+    b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
+#endif
+    float p = 0.0f;
 #if BSDF_FILM
-    b.stretch = base_stretch(&b, wo); /* the film's mean needs it */
-    float film_albedo = 0.0f;
     if (in->film > 0.0f && in->film_input.thickness > 0.0f) {
+        b.film_input = in->film_input;
         b.film0 = colour_fma_scale(in->metallic, colour_sub(metal0, coat0), coat0);
-        film_albedo = base_add_film(&b, in, wo, opaque, albedo.x, &coat_albedo);
+        p = base_add_film(&b, in, base_film_mean(&b, wo), opaque, albedo.x, &coat_albedo);
     }
 #endif
     base_lambert(&b, in, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
-
-#if !BSDF_FILM
-    b.stretch = base_stretch(&b, wo);
-#endif
-    float p = colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
-#if BSDF_FILM
-    p += film_albedo;
-#endif
+    p += colour_average(colour_fma_scale(albedo.y, b.specular1, colour_scale(b.specular0, albedo.x)));
     uint bounded = !b.smooth;
 #if BSDF_TRANSMISSION
     b.p_cap = 0.0f;

@@ -47,7 +47,7 @@ TRIAD_FUNCTION void base_eval_microfacets(const BaseBsdf* b, Vec3 wo, Vec3 wi, C
         /* |d omega_h / d omega_i|: Walter et al. 2007 eq. 17; a thin wall mirrors the reflection */
         float jacobian = b->solid ? eta * eta * -wi_h / l2 : 1.0f / (4.0f * wo_h);
         float masking = ggx_masking(wo.z, b->stretch, -wi.z, base_stretch(b, wi));
-        *f = colour_add(*f, colour_scale(transmitted, b->body_scale * wo_h * jacobian * d * masking));
+        *f = colour_add(*f, colour_scale(transmitted, base_body_scale(b) * wo_h * jacobian * d * masking));
         /* a normal of ggx_sample within the cap */
         float a2 = b->alpha * b->alpha;
         uint in_cap =
@@ -157,7 +157,7 @@ TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_lobe, 
             float p = b->p_specular * (through ? 1.0f - reflect : reflect);
             s.weight = colour_div(through ? transmitted : reflected, colour_splat(p));
 #if BSDF_TRANSMISSION
-            if (through) s.weight = colour_scale(s.weight, b->body_scale);
+            if (through) s.weight = colour_scale(s.weight, base_body_scale(b));
 #endif
             return s;
         }

@@ -73,7 +73,7 @@ TRIAD_FUNCTION Bsdf bsdf_make(const BsdfInput* in, Vec3 wo, global const float* 
 /* Factor of radiance that crosses into, or out of, a solid body. */
 TRIAD_FUNCTION float bsdf_body_scale(const Bsdf* b) {
 #if BSDF_TRANSMISSION
-    return b->base.body_scale;
+    return base_body_scale(&b->base);
 #else
     (void)b;
     return 1.0f;
