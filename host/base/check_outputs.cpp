@@ -38,18 +38,19 @@ bool is_within(const std::string& path, const std::string& input) {
 void check_writable(const std::string& path) {
     if (path == "-") return;
     remove_leftovers(path, false);
-    if (fs::is_directory(path)) throw Error(Exit::scene, "Cannot write " + path + ": it is a folder.");
+    if (is_folder(path)) throw Error(Exit::scene, "Cannot write " + path + ": it is a folder.");
     // What writing will do: make a file beside it. Only the attempt tells; access rights are not the whole
     // story.
     const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-    if (!fs::is_directory(folder))
+    if (!is_folder(folder))
         throw Error(Exit::scene, "Cannot write " + path + ": there is no folder " + folder.string() + ".");
     if (is_special(path)) return;
     const fs::path probe = folder / (".triad-probe" + fs::path(path).filename().string());
     const int file = ::open(probe.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     if (file < 0) throw Error(Exit::scene, "Cannot write " + path + ": " + std::strerror(errno) + ".");
     ::close(file);
-    fs::remove(probe);
+    std::error_code ignored;
+    fs::remove(probe, ignored);
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ void refuse_to_replace(const std::vector<std::string>& outputs, const std::vecto
         for (const std::string& input : inputs)
             if (is_within(path, input))
                 throw Error(Exit::usage, "The output " + path + " would replace " +
-                                             (fs::is_directory(input) ? "a file of " : "") + input +
+                                             (is_folder(input) ? "a file of " : "") + input +
                                              ", which is read; name another file.");
 }
 
@@ -76,6 +77,17 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
     refuse_to_replace(outputs, inputs);
     for (const std::string& path : outputs)
         if (!path.empty()) check_writable(path);
+}
+
+void check_output_folder(const std::string& folder, const std::vector<std::string>& files,
+                         const std::vector<std::string>& inputs) {
+    if (folder.empty()) return;
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (failed) throw Error(Exit::scene, "Cannot make the folder " + folder + ": " + failed.message() + ".");
+    std::vector<std::string> paths;
+    for (const std::string& file : files) paths.push_back(fs::path(folder) / file);
+    check_outputs(paths, inputs);
 }
 
 }  // namespace triad

@@ -10,6 +10,10 @@ namespace triad {
 /// can be made at one of them.
 void check_outputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
+/// The same of these files in a folder, which is made where it is not there; an empty name is none.
+void check_output_folder(const std::string& folder, const std::vector<std::string>& files,
+                         const std::vector<std::string>& inputs);
+
 /// Throws Error(usage) when an output would replace an input, whatever their names and links.
 void refuse_to_replace(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 

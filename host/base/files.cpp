@@ -94,6 +94,19 @@ std::string name_aside(const fs::path& path, const std::string& pid) {
 
 }  // namespace
 
+bool is_there(const fs::path& path) {
+    std::error_code failed;
+    return fs::exists(path, failed);
+}
+bool is_file(const fs::path& path) {
+    std::error_code failed;
+    return fs::is_regular_file(path, failed);
+}
+bool is_folder(const fs::path& path) {
+    std::error_code failed;
+    return fs::is_directory(path, failed);
+}
+
 void write_aside(const fs::path& path, const std::function<void(const fs::path&)>& write) {
     const fs::path aside = folder_of(path) / name_aside(path, std::to_string(::getpid()));
     struct Cleanup {
@@ -103,8 +116,7 @@ void write_aside(const fs::path& path, const std::function<void(const fs::path&)
             fs::remove(aside, ignored);
         }
     } cleanup{aside};
-    if (fs::is_directory(path))
-        throw Error(Exit::scene, "Cannot write " + path.string() + ": it is a folder.");
+    if (is_folder(path)) throw Error(Exit::scene, "Cannot write " + path.string() + ": it is a folder.");
     std::error_code ignored;
     if (const fs::file_status there = fs::status(path, ignored);
         fs::exists(there) && !fs::is_regular_file(there)) {

@@ -13,6 +13,12 @@ namespace triad {
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t cap = std::uint64_t(16)
                                                                                            << 30);
 
+/// Whether something, a regular file, a folder is there. What cannot be asked (a name that is too long, a
+/// folder that may not be entered) is not.
+bool is_there(const std::filesystem::path& path);
+bool is_file(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
+
 /// Calls write(temporary path in the same folder) and renames the result onto `path`; on any exception the
 /// temporary is removed and an older file at `path` stays as it was. An existing device or pipe is written to
 /// directly. Throws Error(scene) when the folder cannot be written.

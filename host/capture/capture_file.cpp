@@ -116,7 +116,8 @@ Capture CaptureReader::read() {
     const std::string head = take_text(head_bytes);
     const std::string whole = std::string(reinterpret_cast<const char*>(&prefix), sizeof prefix) + head;
     check(0, whole, "its header");
-    std::memcpy(extents.data(), head.data() + prefix.header_stored, extents.size() * sizeof(Extent));
+    if (!extents.empty())
+        std::memcpy(extents.data(), head.data() + prefix.header_stored, extents.size() * sizeof(Extent));
 
     std::uint64_t all = 0;
     for (const Extent& extent : extents) {

@@ -93,7 +93,6 @@ void write_boards(const BenchDeviceOptions& o, const BoardsRun& all) {
     if (!o.json.empty()) write_json(o.json);
     if (o.folder.empty()) return;
     const std::filesystem::path folder = o.folder;
-    std::filesystem::create_directories(folder);
     write_json(folder / "board.json");
     write_file(folder / "index.html", board_page(all.boards, command_words()));
     inform("Page: " + (folder / "index.html").string() +
@@ -117,7 +116,7 @@ Exit run(const BenchDeviceOptions& o) {
     std::vector<std::string> inputs = o.against;
     inputs.push_back(o.kernels);
     check_outputs({o.json}, inputs);
-    if (!o.folder.empty()) refuse_to_replace({o.folder + "/index.html", o.folder + "/board.json"}, inputs);
+    check_output_folder(o.folder, {"index.html", "board.json"}, inputs);
     BoardsRun all;
     if (o.against.empty()) {
         all = measure(o);

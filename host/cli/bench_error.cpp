@@ -157,10 +157,7 @@ Exit run_bench_error(const BenchErrorOptions& o) {
     std::vector<std::string> inputs = arguments_of(o.scenes);
     inputs.insert(inputs.end(), {o.against, o.kernels});
     check_outputs({o.csv, o.json}, inputs);
-    if (!o.folder.empty()) {
-        fs::create_directories(o.folder);
-        refuse_to_replace({o.folder + "/runs.csv", o.folder + "/report.json"}, inputs);
-    }
+    check_output_folder(o.folder, {"report.html", "runs.csv", "report.json"}, inputs);
     const ErrorBench bench = measure(o);
     const std::vector<SettingScore> scores =
         o.baselines.empty() ? std::vector<SettingScore>{} : score_settings(bench, o.baselines);

@@ -50,8 +50,7 @@ std::string usual_pictures() {
     const char* assets = std::getenv("TRIAD_TEST_ASSETS");
     const fs::path folder =
         (assets ? fs::path(assets) : scenes_folder().parent_path() / "../shared/assets") / "subpixel";
-    std::error_code error;
-    if (fs::is_directory(folder, error)) return folder.lexically_normal().string();
+    if (is_folder(folder)) return folder.lexically_normal().string();
     inform("The synthetic pictures are left out: they are not in " + folder.lexically_normal().string() +
            " (TRIAD_TEST_ASSETS names the folder above, --synthetic any folder).");
     return "";
@@ -70,8 +69,7 @@ std::vector<PanelView> displays_of(const SubpixelOptions& o) {
 
 /// The .exr pictures of a folder, by name.
 std::vector<fs::path> pictures_in(const fs::path& folder) {
-    std::error_code absent;
-    if (!fs::is_directory(folder, absent))
+    if (!is_folder(folder))
         throw Error(Exit::scene, "--synthetic " + folder.string() + ": there is no such folder.");
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder))
@@ -141,7 +139,7 @@ Exit run(const SubpixelOptions& o) {
     inputs.insert(inputs.end(), o.panels.begin(), o.panels.end());
     inputs.push_back(o.synthetic);
     check_outputs({o.csv, o.json}, inputs);
-    if (!o.folder.empty()) fs::create_directories(o.folder);
+    check_output_folder(o.folder, {"report.html", "rows.csv", "report.json"}, inputs);
     SubpixelReport report{{displays_of(o), o.rays, o.repetitions, o.seed}, {}, command_words(), date_words()};
     Subjects subjects(o);
     const InterruptGuard guard;

@@ -1,6 +1,5 @@
 // triad capture: one pass of a render as a file, for triad-replay on other devices.
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <set>
 #include <string>
@@ -41,7 +40,7 @@ Exit run(const CaptureOptions& o) {
     for (const Recording::Memory& memory : capture.work.memories) bytes += memory.bytes;
     inform(format("Captured %zu launches of %zu kernels over %zu buffers of %s in all: %s has %s", launches,
                   capture.work.functions.size(), capture.work.memories.size(), bytes_text(bytes).c_str(),
-                  o.output.c_str(), bytes_text(std::filesystem::file_size(o.output)).c_str()));
+                  o.output.c_str(), bytes_text(InputFile(o.output).size()).c_str()));
     return Exit::done;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 
 namespace triad {
 namespace {
@@ -52,7 +53,7 @@ std::string NamedOptions::text() const {
 
 NamedOptions parse_scene(const std::string& text) {
     const auto colon = text.find(": ");
-    if (std::filesystem::exists(text) || colon == std::string::npos)
+    if (is_there(text) || colon == std::string::npos)
         return {std::filesystem::path(text).stem().string(), {text}};
     return parse_setting(text);
 }

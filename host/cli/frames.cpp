@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "base/files.h"
 #include "base/text.h"
 #include "cli/resume.h"
 
@@ -26,7 +27,7 @@ RenderRequest frame_of(const RenderRequest& all, std::uint64_t frame) {
     for (std::string& path : one.outputs) path = numbered(path, frame);
     for (std::string* path : {&one.film_path, &one.resume_path, &one.json_path})
         *path = numbered(*path, frame);
-    if (!fs::exists(one.resume_path)) {  // it was not begun
+    if (!is_there(one.resume_path)) {  // it was not begun
         if (one.film_path.empty()) one.film_path = one.resume_path;
         one.resume_path.clear();
     }

@@ -59,7 +59,7 @@ void check(const ProfileOptions& o) {
     std::vector<std::string> inputs = o.request.inputs_named();
     inputs.push_back(o.against);
     check_outputs({o.json, o.trace}, inputs);
-    if (!o.folder.empty()) refuse_to_replace({o.folder + "/index.html"}, inputs);
+    check_output_folder(o.folder, {"index.html"}, inputs);
 }
 
 Exit run(ProfileOptions o) {
@@ -89,7 +89,6 @@ Exit run(ProfileOptions o) {
     if (!o.json.empty()) write_report(o.json, "profile", &profiles.front().device, rows_of(profiles), more);
     if (!o.trace.empty()) write_file(o.trace, trace_of(profiles.back(), kept_spans()).dump() + "\n");
     if (!o.folder.empty()) {
-        std::filesystem::create_directories(o.folder);
         write_file(std::filesystem::path(o.folder) / "index.html",
                    profile_page(profiles, kept_spans(), command_words(), profile_maps()));
         inform("Page: " + o.folder + "/index.html");

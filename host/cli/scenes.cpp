@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/files.h"
 #include "base/log.h"
 #include "base/program.h"
 #include "base/text.h"
@@ -68,7 +69,7 @@ Exit for_each_scene(const CLI::App& command, const RenderRequest& all, const std
     int worst = 0;
     for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
         RenderRequest one = scene_of(named, *scene);
-        if (!one.resume_path.empty() && !fs::exists(one.resume_path)) {  // it was not begun
+        if (!one.resume_path.empty() && !is_there(one.resume_path)) {  // it was not begun
             if (one.film_path.empty()) one.film_path = one.resume_path;
             one.resume_path.clear();
         }

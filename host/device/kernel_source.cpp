@@ -103,7 +103,7 @@ class Flattener {
 }  // namespace
 
 void set_folder(const fs::path& path) {
-    if (!path.empty() && !fs::is_directory(path))
+    if (!path.empty() && !is_folder(path))
         throw Error(Exit::usage, "The kernel folder " + path.string() + " is not a folder.");
     folder = path;
 }

@@ -141,7 +141,7 @@ int type_number(int components) {
 template <class Vector>
 std::vector<Vector> as_vectors(const std::vector<float>& floats) {
     std::vector<Vector> result(floats.size() / std::size_t(Vector::length()));
-    std::memcpy(result.data(), floats.data(), floats.size() * sizeof(float));
+    if (!result.empty()) std::memcpy(result.data(), floats.data(), floats.size() * sizeof(float));
     return result;
 }
 

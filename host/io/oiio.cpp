@@ -54,15 +54,22 @@ void Input::read_bands(OIIO::TypeDesc type,
     const std::size_t row = std::size_t(spec_.width) * spec_.nchannels * type.size();
     const bool tiled = spec_.tile_width > 0;
     const int band = tiled ? spec_.tile_height : 64;
+    // read_scanlines() of OpenImageIO 2.4 takes memory for 256 rows, however few it reads.
+    constexpr std::size_t widest_of_many = std::size_t(1) << 18;
     std::vector<std::uint8_t> values(row * std::min(band, spec_.height));
     for (int y = 0; y < spec_.height; y += band) {
         const int rows = std::min(band, spec_.height - y), first = spec_.y + y;
         try {
-            const bool read =
-                tiled ? input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows, 0, 1, 0,
-                                           spec_.nchannels, type, values.data())
-                      : input_->read_scanlines(0, 0, first, first + rows, 0, 0, spec_.nchannels, type,
-                                               values.data());
+            bool read = true;
+            if (tiled)
+                read = input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows, 0, 1, 0,
+                                          spec_.nchannels, type, values.data());
+            else if (row <= widest_of_many)
+                read = input_->read_scanlines(0, 0, first, first + rows, 0, 0, spec_.nchannels, type,
+                                              values.data());
+            else
+                for (int i = 0; read && i < rows; ++i)
+                    read = input_->read_scanline(first + i, 0, type, values.data() + std::size_t(i) * row);
             if (!read) fail(input_->geterror());
         } catch (const Error&) {
             throw;

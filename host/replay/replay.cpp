@@ -132,7 +132,6 @@ bool report(const Profile& p, const ReplayRequest& o, const Json& before, Json m
     more["devices"] = devices_of({p});
     if (!o.json.empty()) write_report(o.json, "replay", &p.device, rows_of({p}), more);
     if (!o.folder.empty()) {
-        std::filesystem::create_directories(o.folder);
         write_file(std::filesystem::path(o.folder) / "index.html", profile_page({p}, {}, command_words()));
         lines.say("Page: " + o.folder + "/index.html\n");
     }
@@ -146,7 +145,7 @@ bool report(const Profile& p, const ReplayRequest& o, const Json& before, Json m
 void check_paths(const ReplayRequest& o) {
     const std::vector<std::string> inputs{o.capture, o.kernels, o.against};
     check_outputs({o.json}, inputs);
-    if (!o.folder.empty()) refuse_to_replace({o.folder + "/index.html"}, inputs);
+    check_output_folder(o.folder, {"index.html"}, inputs);
     if (o.repeat == 0 && !(o.folder.empty() && o.against.empty()))
         throw Error(Exit::usage, "--repeat 0 measures nothing that -o could show or --against compare.");
 }

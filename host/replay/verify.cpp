@@ -27,7 +27,7 @@ std::vector<T> joined(const Capture& capture, What what, const ContentOf& conten
         const AlignedVector<std::byte>& content = content_of(i);
         const std::size_t before = all.size();
         all.resize(before + content.size() / sizeof(T));
-        std::memcpy(all.data() + before, content.data(), content.size());
+        if (!content.empty()) std::memcpy(all.data() + before, content.data(), content.size());
     }
     return all;
 }

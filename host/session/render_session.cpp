@@ -40,7 +40,7 @@ RenderRequest checked(RenderRequest request) {
     complete(request);
     check_outputs(request.outputs_named(), request.inputs_named());
     const std::string& film = request.film_path;
-    if (std::filesystem::is_regular_file(film) && !is_same_file(film, request.resume_path))
+    if (is_file(film) && !is_same_file(film, request.resume_path))
         throw Error(Exit::usage, "The film " + film + " is there already: triad render --resume " + film +
                                      " goes on with it. Remove it, or name another one, to begin again.");
     set_host_threads(request.threads);
@@ -51,8 +51,7 @@ RenderRequest checked(RenderRequest request) {
 /// None for what is no file: nothing else is replaced, or goes on.
 std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
     const std::string& film = request.film_path;
-    if (film.empty() || (std::filesystem::exists(film) && !std::filesystem::is_regular_file(film)))
-        return nullptr;
+    if (film.empty() || (is_there(film) && !is_file(film))) return nullptr;
     auto lock = std::make_unique<FileLock>(film);
     remove_leftovers(film, true);
     return lock;

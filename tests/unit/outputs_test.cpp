@@ -133,6 +133,38 @@ TEST(Outputs, no_command_waits_for_a_pipe_or_reads_a_folder) {
         EXPECT_NE(inputs.run(arguments).exit, 124) << arguments;
 }
 
+TEST(Outputs, a_name_that_is_too_long_gets_a_sentence_before_anything_is_done) {
+    const Inputs inputs;
+    const std::string it(300, 'n');
+    for (const std::string& arguments : {"render " + it,
+                                         "render --env " + it,
+                                         "render --panel " + it,
+                                         "render -o " + it + ".png",
+                                         "render --film " + it,
+                                         "render --resume " + it,
+                                         "render --frames 0:2 --resume " + it,
+                                         "render --kernels " + it,
+                                         "info " + it,
+                                         "info scene.gltf --json " + it,
+                                         "resolve " + it + " -o x.png",
+                                         "resolve a.exr -o " + it + ".png",
+                                         "compare a.exr " + it,
+                                         "merge a.film " + it + " -o x",
+                                         "panel " + it,
+                                         "bench error " + it,
+                                         "bench error -o " + it,
+                                         "bench subpixel -o " + it,
+                                         "bench device -o " + it,
+                                         "profile -o " + it,
+                                         "capture -o " + it}) {
+        const Outcome outcome = inputs.run(arguments);
+        EXPECT_TRUE(outcome.exit == 1 || outcome.exit == 2)
+            << arguments << ": " << outcome.exit << outcome.output;
+        EXPECT_EQ(outcome.output.find("filesystem error"), std::string::npos) << outcome.output;
+        EXPECT_NE(outcome.output.find(it), std::string::npos) << arguments << "\n" << outcome.output;
+    }
+}
+
 TEST(Outputs, what_could_not_be_printed_is_no_success) {
     const Inputs inputs;
     for (const std::string arguments :
