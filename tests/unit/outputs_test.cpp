@@ -148,7 +148,7 @@ TEST(Outputs, a_name_that_is_too_long_gets_a_sentence_before_anything_is_done) {
                                          "info scene.gltf --json " + it,
                                          "resolve " + it + " -o x.png",
                                          "resolve a.exr -o " + it + ".png",
-                                         "compare a.exr " + it,
+                                         "compare " + it + " a.exr",
                                          "merge a.film " + it + " -o x",
                                          "panel " + it,
                                          "bench error " + it,
