@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <vector>
 
 #include "cli/command_line.h"
 #include "cli/option_text.h"
@@ -130,5 +132,62 @@ TEST(Version, is_the_same_wherever_it_is_said) {
         const std::string text = bytes_of(root / file);
         ASSERT_TRUE(std::regex_search(text, heading, std::regex(R"(\n## ([0-9.]+))"))) << file;
         EXPECT_EQ(heading[1], TRIAD_VERSION) << file;
+    }
+}
+
+namespace {
+
+std::vector<fs::path> pages() {
+    std::vector<fs::path> all{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
+    for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
+        if (entry.path().extension() == ".md") all.push_back(entry.path());
+    return all;
+}
+
+/// What `#...` may name in a page: its headings, as sites that show them make anchors of them.
+std::set<std::string> anchors_of(const std::string& page) {
+    std::set<std::string> anchors;
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.empty() || line[0] != '#') continue;
+        std::string anchor;
+        for (const char c : line.substr(std::min(line.size(), line.find_first_not_of("# "))))
+            if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
+                anchor += char(std::tolower(static_cast<unsigned char>(c)));
+            else if (c == ' ')
+                anchor += '-';
+        anchors.insert(anchor);
+    }
+    return anchors;
+}
+
+}  // namespace
+
+TEST(Manual, every_link_leads_somewhere) {
+    static const std::regex link(R"(\]\(([^)\s#]*)(?:#([^)\s]*))?\))");
+    std::size_t links = 0;
+    for (const fs::path& page : pages()) {
+        const std::string text = bytes_of(page);
+        for (std::sregex_iterator at(text.begin(), text.end(), link), end; at != end; ++at) {
+            const std::string path = (*at)[1], anchor = (*at)[2];
+            if (path.find("://") != std::string::npos) continue;
+            const fs::path to = path.empty() ? page : (page.parent_path() / path).lexically_normal();
+            ++links;
+            EXPECT_TRUE(fs::exists(to)) << page << " links to " << path;
+            if (!anchor.empty() && to.extension() == ".md" && fs::exists(to)) {
+                EXPECT_TRUE(anchors_of(bytes_of(to)).count(anchor))
+                    << page << " links to " << path << "#" << anchor;
+            }
+        }
+    }
+    EXPECT_GT(links, 200u);
+}
+
+TEST(Manual, every_page_is_in_its_contents) {
+    const std::string contents = bytes_of(root / "docs/README.md");
+    for (const auto& entry : fs::directory_iterator(root / "docs")) {
+        const std::string name = entry.path().filename();
+        if (entry.path().extension() != ".md" || name == "README.md") continue;
+        EXPECT_NE(contents.find("](" + name + ")"), std::string::npos) << name;
     }
 }
