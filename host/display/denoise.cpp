@@ -19,6 +19,7 @@ struct Candidate {
 };
 constexpr Candidate candidates[] = {{3, 0.45f}, {1, 0.6f}, {1, 1.2f}};
 constexpr std::uint32_t candidate_count = std::size(candidates);
+constexpr std::uint32_t choice_count = candidate_count + 1;  // with the samples' own mean
 
 /// Of the distances of some rows.
 constexpr std::size_t most_distance_bytes = std::size_t(64) << 20;
@@ -34,6 +35,17 @@ float middle_depth(const Film& film) {
     return *middle;
 }
 
+/// Mean RGBA of one bin of every pixel.
+std::vector<float> bin_means(const Film& film, std::size_t bin) {
+    std::vector<float> rgba(film.pixels() * 4);
+    for (std::size_t p = 0; p < film.pixels(); ++p) {
+        const double scale = std::ldexp(1.0, -film.quanta_log2) * double(film.bins()) / film.samples[p];
+        for (std::size_t c = 0; c < 4; ++c)
+            rgba[4 * p + c] = float(double(film.sums[(p * film.bins() + bin) * 4 + c]) * scale);
+    }
+    return rgba;
+}
+
 class OwnDenoiser {
   public:
     OwnDenoiser(Device& device, const Film& film, std::optional<unsigned> lanes)
@@ -45,17 +57,40 @@ class OwnDenoiser {
         on_device_ = device.upload(std::span<const dev::DenoiseShape>(&shape_, 1));
     }
 
-    std::vector<float> run() {
+    /// Chooses a filter for every pixel.
+    void choose() {
         const HalfMeans halves = half_means(film_).value();
-        planes_ = device_.allocate_array<float>(std::size_t(DENOISE_PLANES) * shape_.plane);
-        fill("fill_planes", {device_.upload(halves.first), device_.upload(halves.second)}, planes_);
+        planes_ = planes_of(halves.first, halves.second);
         if (!film_.guides.empty()) {
             guides_ = device_.allocate_array<float>(std::size_t(DENOISE_GUIDES) * shape_.plane);
             fill("fill_guides", {device_.upload(film_.guides)}, guides_);
         }
         filtered_ = device_.allocate_array<float>(std::size_t(candidate_count) * 6 * shape_.plane);
-        regress();
-        return mixed();
+        regress(planes_);
+        const Program program = this->program("denoise/choose.cl");
+        const Buffer errors = device_.allocate_array<float>(std::size_t(choice_count) * shape_.plane);
+        const Kernel measure = program.kernel("measure_errors");
+        for (std::uint32_t c = 0; c < choice_count; ++c)
+            device_.run(measure, Arguments().add(on_device_).add(planes_).add(filtered_).add(c).add(errors),
+                        pixels());
+        choices_ = device_.allocate_array<std::uint32_t>(pixels());
+        device_.run(program.kernel("choose"),
+                    Arguments().add(on_device_).add(errors).add(choice_count).add(choices_), pixels());
+    }
+
+    /// These means of the film's pixels, or of one bin of each, by the filters that were chosen: a filter is
+    /// a weighted mean, whose weights are those of the pixels for every bin.
+    std::vector<float> filtered(const std::vector<float>& rgba) {
+        if (film_.bins() > 1) {
+            std::vector<float> rgb(pixels() * 3);
+            for (std::size_t p = 0; p < pixels(); ++p) std::copy_n(&rgba[4 * p], 3, &rgb[3 * p]);
+            regress(planes_of(rgb, rgb));
+        }
+        const Buffer means = device_.upload(rgba);
+        device_.run(program("denoise/choose.cl").kernel("mix_choices"),
+                    Arguments().add(on_device_).add(choices_).add(filtered_).add(choice_count).add(means),
+                    pixels());
+        return device_.download<float>(means);
     }
 
   private:
@@ -63,7 +98,7 @@ class OwnDenoiser {
     const Film& film_;
     const unsigned lanes_;
     dev::DenoiseShape shape_{};
-    Buffer on_device_, planes_, guides_, filtered_;
+    Buffer on_device_, planes_, guides_, filtered_, choices_;
 
     Program program(const char* path) const {
         return device_.build(path, {{"DENOISE_LANES", std::to_string(lanes_)},
@@ -71,14 +106,20 @@ class OwnDenoiser {
     }
     std::size_t pixels() const { return std::size_t(shape_.width) * shape_.height; }
 
+    Buffer planes_of(const std::vector<float>& first, const std::vector<float>& second) {
+        const Buffer planes = device_.allocate_array<float>(std::size_t(DENOISE_PLANES) * shape_.plane);
+        fill("fill_planes", {device_.upload(first), device_.upload(second)}, planes);
+        return planes;
+    }
     void fill(const char* kernel, const std::vector<Buffer>& from, const Buffer& to) {
         Arguments arguments = Arguments().add(on_device_);
         for (const Buffer& buffer : from) arguments.add(buffer);
         device_.run(program("denoise/choose.cl").kernel(kernel), arguments.add(to), shape_.plane);
     }
 
-    /// Every candidate for both halves, some rows at a time: distances take much memory.
-    void regress() {
+    /// Every candidate for both halves of `colours`, weighed by the film's halves, some rows at a time:
+    /// distances take much memory.
+    void regress(const Buffer& colours) {
         constexpr std::size_t offsets = DENOISE_SIDE * DENOISE_SIDE;
         const std::size_t row_bytes = offsets * shape_.stride * sizeof(float);
         const std::size_t fit = std::max<std::size_t>(most_distance_bytes / row_bytes, 2 * DENOISE_PATCH + 8);
@@ -102,8 +143,8 @@ class OwnDenoiser {
                     device_.run(regress,
                                 Arguments()
                                     .add(on_device_)
-                                    .add(planes_)
-                                    .add(film_.guides.empty() ? planes_ : guides_)  // not read
+                                    .add(colours)
+                                    .add(film_.guides.empty() ? colours : guides_)  // not read
                                     .add(distances)
                                     .add(own)
                                     .add(first)
@@ -117,24 +158,6 @@ class OwnDenoiser {
             }
             device_.finish();
         }
-    }
-
-    /// Each pixel by the candidate that has the least error around it.
-    std::vector<float> mixed() {
-        const Program program = this->program("denoise/choose.cl");
-        const std::uint32_t count = candidate_count + 1;  // with the samples' own mean
-        const Buffer errors = device_.allocate_array<float>(std::size_t(count) * shape_.plane),
-                     choices = device_.allocate_array<std::uint32_t>(pixels()),
-                     means = device_.upload(resolve_linear(film_));
-        const Kernel measure = program.kernel("measure_errors");
-        for (std::uint32_t c = 0; c < count; ++c)
-            device_.run(measure, Arguments().add(on_device_).add(planes_).add(filtered_).add(c).add(errors),
-                        pixels());
-        device_.run(program.kernel("choose"), Arguments().add(on_device_).add(errors).add(count).add(choices),
-                    pixels());
-        device_.run(program.kernel("mix_choices"),
-                    Arguments().add(on_device_).add(choices).add(filtered_).add(count).add(means), pixels());
-        return device_.download<float>(means);
     }
 };
 
@@ -157,27 +180,40 @@ Denoiser denoiser_named(const std::string& name) {
     throw Error(Exit::usage, "--denoise " + name + ": there are off, own and oidn.");
 }
 
-void refuse_to_denoise_bins() {
-    throw Error(
-        Exit::usage,
-        "--denoise works on whole pixels, and there are several bins in each: leave out --denoise, or "
-        "--bins, --filter, --reconstruct and --panel.");
-}
-
-void require_denoisable(const Film& film) {
-    if (film.bins() > 1) refuse_to_denoise_bins();
-    if (film.sample_numbers().least < 2)
+void require_denoisable(Denoiser denoiser, std::uint64_t bins, std::uint64_t samples) {
+    if (denoiser == Denoiser::off) return;
+    const std::string name = std::string("--denoise ") + name_of(denoiser);
+    if (denoiser == Denoiser::oidn && bins > 1)
         throw Error(Exit::usage,
-                    "--denoise tells noise by two halves of the samples: every pixel needs two "
-                    "samples at least (--spp).");
+                    name +
+                        " works on whole pixels, and there are several bins in each: use --denoise "
+                        "own, or leave out --bins, --filter, --reconstruct and --panel.");
+    if (samples < 2 * bins)
+        throw Error(Exit::usage, name + " tells noise by two halves of the samples: every pixel needs " +
+                                     std::to_string(2 * bins) + " at least (--spp)" +
+                                     (bins > 1 ? ", two for each of its bins." : "."));
 }
 
 BinImage denoised(Device& device, const Film& film, Denoiser denoiser, std::optional<unsigned> lanes) {
-    require_denoisable(film);
-    BinImage image{.columns = film.width, .rows = film.height, .rgba = {}};
-    image.rgba = denoiser == Denoiser::own    ? OwnDenoiser(device, film, lanes).run()
-                 : denoiser == Denoiser::oidn ? open_image_denoised(film)
-                                              : resolve_linear(film);
+    require_denoisable(denoiser, film.bins(), film.sample_numbers().least);
+    BinImage image{.columns = film.width * film.bins_x,
+                   .rows = film.height * film.bins_y,
+                   .bins_x = film.bins_x,
+                   .bins_y = film.bins_y,
+                   .rgba = {}};
+    image.rgba.resize(std::size_t(image.columns) * image.rows * 4);
+    std::optional<OwnDenoiser> own;
+    if (denoiser == Denoiser::own) own.emplace(device, film, lanes).choose();
+    for (std::size_t bin = 0; bin < film.bins(); ++bin) {
+        std::vector<float> rgba = bin_means(film, bin);
+        if (own) rgba = own->filtered(rgba);
+        if (denoiser == Denoiser::oidn) rgba = open_image_denoised(film);
+        for (std::size_t p = 0; p < film.pixels(); ++p) {
+            const std::size_t x = p % film.width * film.bins_x + bin % film.bins_x,
+                              y = p / film.width * film.bins_y + bin / film.bins_x;
+            std::copy_n(&rgba[4 * p], 4, &image.rgba[4 * (y * image.columns + x)]);
+        }
+    }
     return image;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 /// Pictures with less noise than their samples have (docs/denoise.md).
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,13 +18,11 @@ const char* name_of(Denoiser denoiser);
 /// Throws Error(usage).
 Denoiser denoiser_named(const std::string& name);
 
-/// Throws Error(usage): what is done with several bins per pixel wants their noise as it is.
-[[noreturn]] void refuse_to_denoise_bins();
-/// Throws Error(usage) for a film that cannot be denoised: one with several bins per pixel, or one whose
-/// pixels have a single sample.
-void require_denoisable(const Film& film);
+/// Throws Error(usage) for what cannot be denoised: bins with a single sample, and by Open Image Denoise
+/// several bins per pixel. samples: of the pixel that has the fewest.
+void require_denoisable(Denoiser denoiser, std::uint64_t bins, std::uint64_t samples);
 
-/// Mean scene-linear radiance of every pixel with the noise of its samples reduced; alpha as it is. Guided by
+/// Mean scene-linear radiance of every bin with the noise of its samples reduced; alpha as it is. Guided by
 /// the film's guides where it has any, else by colours alone. Throws Error(usage) as require_denoisable(),
 /// Error(unsupported) when Open Image Denoise is not found, DeviceError. `lanes`: DisplayShape::lanes of the
 /// own one; none: display_shape of the device.

@@ -40,10 +40,6 @@ void check_denoise(const RenderRequest& o) {
                         "--aov " + std::string(of_samples) +
                             " tells of the samples, not of a denoised picture: leave it out, or " + name +
                             ".");
-    if ((o.spp && *o.spp < 2) || (o.samples && o.samples->end - o.samples->begin < 2))
-        throw Error(Exit::usage, name +
-                                     " tells noise by two halves of the samples: every pixel needs two at "
-                                     "least (--spp).");
 }
 
 }  // namespace
@@ -103,7 +99,12 @@ void complete(RenderRequest& o) {
     o.style.reconstruction = o.reconstruct.make();
     check_format_for(o.style.reconstruction, o.outputs);
     const std::uint64_t bins = o.style.reconstruction.bins_x * o.style.reconstruction.bins_y;
-    if (bins > 1 && o.style.denoise != Denoiser::off) refuse_to_denoise_bins();
+    if (o.spp || o.samples)
+        require_denoisable(
+            o.style.denoise, bins,
+            o.samples ? o.samples->end - o.samples->begin : whole_bins(*o.spp, unsigned(bins)));
+    else
+        require_denoisable(o.style.denoise, bins, 2 * bins);
     if (o.share) {
         const auto [i, k] = *o.share;
         const std::uint64_t turns = whole_bins(*o.spp, unsigned(bins)) / bins;

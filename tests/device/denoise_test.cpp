@@ -65,6 +65,17 @@ Film noisy_film(const Truth& truth, double deviation) {
     return film;
 }
 
+/// The film with that many bins in a row per pixel, of 1.5, .5, 1.5, ... times its value.
+Film in_bins(const Film& film, unsigned bins) {
+    Film split = film;
+    split.bins_x = bins, split.sums.clear();
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        for (unsigned bin = 0; bin < bins; ++bin)
+            for (std::size_t c = 0; c < 4; ++c)
+                split.sums.push_back(film.sums[4 * p + c] * (bin % 2 == 0 ? 3 : 1) / (2 * bins));
+    return split;
+}
+
 double relmse(const std::vector<float>& rgba, const Truth& truth) {
     double sum = 0;
     for (std::size_t i = 0; i < truth.colour.size(); ++i) {
@@ -131,6 +142,24 @@ TEST(Denoise, films_that_do_not_know_their_noise_are_refused) {
     film.samples[5] = 1;
     EXPECT_THROW(denoised(test_device(), film, Denoiser::own), Error);
     film = noisy_film(floor_and_wall(), 0.5);
-    film.bins_x = 3;
+    film = in_bins(film, 2);
+    EXPECT_THROW(denoised(test_device(), film, Denoiser::oidn), Error);
+    film.samples[5] = 3;
     EXPECT_THROW(denoised(test_device(), film, Denoiser::own), Error);
+}
+
+TEST(Denoise, bins_keep_their_places_and_what_they_differ_by) {
+    const Truth truth = floor_and_wall();
+    const Film film = in_bins(noisy_film(truth, 1.0), 2);
+    const BinImage image = denoised(test_device(), film, Denoiser::own);
+    ASSERT_EQ(image.columns, 2 * width);
+    ASSERT_EQ(image.rows, height);
+    std::vector<float> mean(film.pixels() * 4);
+    for (std::size_t p = 0; p < film.pixels(); ++p)
+        for (std::size_t c = 0; c < 4; ++c) {
+            const float left = image.rgba[8 * p + c], right = image.rgba[8 * p + 4 + c];
+            ASSERT_NEAR(left, 3 * right, 1e-4f * (1 + left)) << "a filter is linear";
+            mean[4 * p + c] = 0.5f * (left + right);
+        }
+    EXPECT_LT(relmse(mean, truth), relmse(resolve_linear(film), truth) / 6);
 }

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "expect_exit.h"
@@ -37,13 +39,33 @@ TEST(DenoiseCommand, a_film_without_guides_is_denoised_by_colours) {
     expect_exit(0, "resolve " + film + " --denoise own -o " + (folder / "a.png").string(), "colours alone");
 }
 
+TEST(DenoiseCommand, a_picture_for_a_panel_has_less_of_the_noise_that_an_eye_sees) {
+    const TemporaryFolder folder;
+    const std::string film = (folder / "a.film").string(), reference = (folder / "r.png").string(),
+                      own = (folder / "own.png").string(), off = (folder / "off.png").string();
+    const std::string panel = " --panel rgb --ppd 30", scene = "render --size 48x32 ";
+    expect_exit(0, "render --size 144x96 --spp 256 --seed 9 --bits 16 -q -o " + reference);
+    expect_exit(0, scene + "--spp 18 --denoise own -q --film " + film + panel + " -o " + own);
+    expect_exit(0, "resolve " + film + panel + " -q -o " + off);
+    EXPECT_FALSE(read_picture(own).metadata.contains("triad:perceived_noise"));
+    const auto error = [&](const std::string& picture) {
+        const std::string report = (folder / "report.json").string();
+        expect_exit(0, "compare " + picture + " " + reference + " --metric perceived --eye scielab" + panel +
+                           " -q --json " + report);
+        std::ifstream file(report);
+        return nlohmann::json::parse(file)["rows"][0]["perceived"][0]["error"].get<double>();
+    };
+    EXPECT_LT(error(own), 0.85 * error(off));
+}
+
 TEST(DenoiseCommand, what_cannot_be_is_said_before_anything_is_rendered) {
     const TemporaryFolder folder;
     const std::string out = " -o " + (folder / "a.exr").string();
     expect_exit(1, "render --denoise strongly" + out, "off, own and oidn");
     expect_exit(1, "render --denoise own --spp 1" + out, "two halves");
     expect_exit(1, "render --denoise own --aov variance" + out, "tells of the samples");
-    expect_exit(1, "render --denoise own --panel rgb" + out, "several bins");
+    expect_exit(1, "render --denoise oidn --panel rgb" + out, "several bins");
+    expect_exit(1, "render --denoise own --panel rgb --spp 9" + out, "two for each of its bins");
     expect_exit(1, "render --denoise own --pixel 3,4", "none is made");
     expect_exit(0, "render --size 16x9 --spp 4 -q" + out);
     expect_exit(1,
