@@ -55,7 +55,7 @@ void declare_style(CLI::App& command, OutputStyle& style) {
     add_parsed(
         command, "--denoise", "off|own|oidn",
         "Less noise than the samples have. off: the default; own: on the device, guided by what the camera "
-        "sees first; oidn: Intel's Open Image Denoise, where it is installed",
+        "sees first; oidn: Intel's Open Image Denoise, where it is installed, for whole pixels",
         [&style](const std::string& v) { style.denoise = denoiser_named(v); })
         ->group(output_group);
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);

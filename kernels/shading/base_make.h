@@ -91,6 +91,10 @@ TRIAD_FUNCTION float base_lambert_albedo(const BaseBsdf* b) {
 }
 
 #if BSDF_TRANSMISSION
+/* Index beyond the surface over index before it. */
+TRIAD_FUNCTION float base_eta(const BsdfInput* in) {
+    return in->solid && in->inside ? 1.0f / in->ior : in->ior;
+}
 /* The transmitter's share of the core: a dielectric of reflectance coat0 at normal incidence, whose
  * `reflected` is the albedo of GGX with Fresnel factor 1. Returns an estimate of its albedo, without a film.
  */
@@ -101,6 +105,9 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
     b->fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
     b->fresnel0 = colour_fma_scale(-f0, b->fresnel1, coat0);
     b->tint = in->base_colour;
+#if !BSDF_FILM
+    b->eta = base_eta(in);
+#endif
     b->transmitter = colour_splat(transmitter);
     if (!b->smooth) {
         Colour kept = colour_splat(reflected);
@@ -197,8 +204,8 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     Colour coat_albedo =
         colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
     b.stretch = base_stretch(&b, wo);
-#if BSDF_TRANSMISSION
-    b.eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
+#if BSDF_FILM && BSDF_TRANSMISSION
+    b.eta = base_eta(in); /* the film's mean needs it */
 #endif
     float p = 0.0f;
 #if BSDF_FILM
