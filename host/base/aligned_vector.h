@@ -27,8 +27,8 @@ using AlignedVector = std::vector<T, PageAllocator<T>>;
 
 /// Makes room for `count` more elements: exactly as much where that is much, so that a large vector never
 /// lies beside its copy, and by a half at least, so that many small additions stay linear.
-template <class T>
-void reserve_more(AlignedVector<T>& to, std::size_t count) {
+template <class T, class Allocator>
+void reserve_more(std::vector<T, Allocator>& to, std::size_t count) {
     if (to.capacity() - to.size() < count) to.reserve(to.size() + std::max(count, to.size() / 2));
 }
 

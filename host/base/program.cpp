@@ -11,6 +11,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/freed_memory.h"
 #include "base/memory_limit.h"
 
 namespace triad {
@@ -45,6 +46,7 @@ Failure failure_at_hand() {
 
 void prepare_process() {
     fill_standard_streams();
+    keep_no_large_pieces();
     std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is then a failed write with a sentence
     std::signal(SIGPIPE, SIG_IGN);  // so is a reader that went away
     set_memory_limit(available_memory() / 2);

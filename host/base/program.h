@@ -6,7 +6,7 @@
 namespace triad {
 
 /// The first lines of main(): standard streams that are closed are filled, limits on files and readers that
-/// go away become failed writes, and memory is limited to half of the machine's.
+/// go away become failed writes, freed memory is given back, and memory is limited to half of the machine's.
 void prepare_process();
 
 /// Does the work, and returns what the process is to exit with: what the work returns, or the code of what it

@@ -1,12 +1,11 @@
 #include "bvh/bvh.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "base/freed_memory.h"
 #include "base/parallel_for.h"
 #include "bvh/binary_tree.h"
 #include "bvh/collapse.h"
@@ -58,7 +57,8 @@ class LeafWriter {
   public:
     /// `items`: of the tree's references.
     LeafWriter(const BinaryTree& tree, std::span<const std::uint32_t> items,
-               std::span<const BvhTriangle> triangles, std::span<const BvhInstance> instances, BvhPool& pool)
+               std::span<const BvhTriangle> triangles, std::span<const std::uint32_t> instances,
+               BvhPool& pool)
         : tree_(tree), items_(items), triangles_(triangles), instances_(instances), pool_(pool) {}
 
     /// dev::Bvh8Node::child of every leaf, by its place among the tree's nodes.
@@ -74,8 +74,7 @@ class LeafWriter {
   private:
     std::uint32_t write(const BinaryNode& leaf) {
         const std::uint32_t* items = items_.data() + leaf.right_or_first;
-        if (items[0] >= triangles_.size())
-            return BVH_INSTANCE | instances_[items[0] - triangles_.size()].instance;
+        if (items[0] >= triangles_.size()) return BVH_INSTANCE | instances_[items[0] - triangles_.size()];
         dev::TriangleBlock block;
         bool opaque = true;
         for (std::uint32_t lane = 0; lane < 4; ++lane) {
@@ -93,7 +92,7 @@ class LeafWriter {
     const BinaryTree& tree_;
     std::span<const std::uint32_t> items_;
     std::span<const BvhTriangle> triangles_;
-    std::span<const BvhInstance> instances_;
+    std::span<const std::uint32_t> instances_;
     BvhPool& pool_;
 };
 
@@ -109,7 +108,11 @@ class NodeWriter {
           leaves_(leaves),
           reach_(origin_reach),
           nodes_(nodes),
-          collapse_(tree.nodes, Format::width) {}
+          collapse_(tree.nodes, Format::width) {
+        // Half of all slots are taken, and some more: a large vector that grew would lie beside its copy.
+        const std::size_t leaf_count = (tree.nodes.size() + 1) / 2;
+        reserve_more(nodes_, leaf_count / (Format::width / 2) + 1);
+    }
 
     /// The node of this binary node; none: an empty tree's.
     std::uint32_t write(std::uint32_t from = 0, unsigned room = Format::room) {
@@ -165,6 +168,13 @@ std::vector<Reference> references_of(std::span<const BvhTriangle> triangles,
     return references;
 }
 
+std::vector<std::uint32_t> indices_of(const std::vector<BvhInstance>& instances) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(instances.size());
+    for (const BvhInstance& i : instances) indices.push_back(i.instance);
+    return indices;
+}
+
 std::vector<std::uint32_t> items_of(const std::vector<Reference>& references) {
     std::vector<std::uint32_t> items;
     items.reserve(references.size());
@@ -172,12 +182,6 @@ std::vector<std::uint32_t> items_of(const std::vector<Reference>& references) {
     return items;
 }
 
-/// What tasks built and gave up lies in small pieces, which the C library otherwise keeps.
-void give_back_freed_memory() {
-#ifdef __GLIBC__
-    ::malloc_trim(0);
-#endif
-}
 constexpr std::size_t many_nodes = 1 << 16;
 
 }  // namespace
@@ -190,13 +194,15 @@ std::optional<BvhFormat> find_bvh_format(const std::string& name) {
     return {};
 }
 
-BvhRoots build_bvh(std::vector<BvhTriangle> triangles, std::span<const BvhInstance> instances,
-                   float origin_reach, BvhPool& pool) {
-    BinaryTree tree = build_binary_tree(triangles, references_of(triangles, instances), most_height);
+BvhRoots build_bvh(std::vector<BvhTriangle> triangles, std::vector<BvhInstance> instances, float origin_reach,
+                   BvhPool& pool) {
+    std::vector<Reference> references = references_of(triangles, instances);
+    const std::vector<std::uint32_t> placed = indices_of(std::exchange(instances, {}));
+    BinaryTree tree = build_binary_tree(triangles, std::move(references), most_height);
     // A large scene's arrays are freed as soon as they are not needed: they are the most that a render takes.
     if (tree.nodes.size() > many_nodes) give_back_freed_memory();
     const std::vector<std::uint32_t> items = items_of(std::exchange(tree.references, {}));
-    const std::vector<std::uint32_t> leaves = LeafWriter(tree, items, triangles, instances, pool).write();
+    const std::vector<std::uint32_t> leaves = LeafWriter(tree, items, triangles, placed, pool).write();
     triangles = std::vector<BvhTriangle>();  // {} would keep the memory
     BvhRoots roots;
     roots.fill(TRIAD_NONE);

@@ -54,13 +54,13 @@ struct BvhInstance {
     std::uint32_t instance;
 };
 
-/// Builds one tree, appends it to `pool` and returns its root nodes. Takes the triangles over: they are freed
-/// as soon as the leaves are written. Deterministic, whatever the number of threads and the other formats.
-/// Exact duplicates (the same three corners) keep the lowest primitive only. `origin_reach` is the largest
-/// coordinate that a ray origin may have in this space: boxes are padded for rounding at that magnitude. Left
-/// out: triangles without area, and what has a coordinate that is no number or beyond 2^125 (validate()
-/// refuses such scenes long before). An empty tree is a root whose children are all BVH_EMPTY.
-BvhRoots build_bvh(std::vector<BvhTriangle> triangles, std::span<const BvhInstance> instances,
-                   float origin_reach, BvhPool& pool);
+/// Builds one tree, appends it to `pool` and returns its root nodes. Takes triangles and instances over: they
+/// are freed as soon as they are not needed. Deterministic, whatever the number of threads and the other
+/// formats. Exact duplicates (the same three corners) keep the lowest primitive only. `origin_reach` is the
+/// largest coordinate that a ray origin may have in this space: boxes are padded for rounding at that
+/// magnitude. Left out: triangles without area, and what has a coordinate that is no number or beyond 2^125
+/// (validate() refuses such scenes long before). An empty tree is a root whose children are all BVH_EMPTY.
+BvhRoots build_bvh(std::vector<BvhTriangle> triangles, std::vector<BvhInstance> instances, float origin_reach,
+                   BvhPool& pool);
 
 }  // namespace triad

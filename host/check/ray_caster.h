@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "bvh/bvh.h"
@@ -51,7 +52,7 @@ inline void set_rows(const dmat4& m, float rows[12]) {
 /// Trees on the device.
 class RayCaster {
   public:
-    RayCaster(Device& device, const BvhPool& pool, const std::vector<dev::Instance>& instances,
+    RayCaster(Device& device, const BvhPool& pool, std::span<const dev::Instance> instances,
               const BvhRoots& roots, const Options& options = {})
         : device_(device) {
         upload(pool, instances, roots, options);
@@ -104,7 +105,7 @@ class RayCaster {
     }
 
   private:
-    void upload(const BvhPool& pool, const std::vector<dev::Instance>& instances, const BvhRoots& roots,
+    void upload(const BvhPool& pool, std::span<const dev::Instance> instances, const BvhRoots& roots,
                 const Options& options) {
         nodes_ = nodes_on(device_, pool);
         blocks_ = device_.upload(pool.blocks);

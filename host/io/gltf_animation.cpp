@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "io/gltf_accessor.h"
-#include "io/gltf_node.h"
 
 namespace triad::gltf {
 namespace {
@@ -28,7 +27,7 @@ Interpolation interpolation_of(const std::string& name, const std::string& what)
     throw Error(Exit::scene, what + " has the unknown interpolation '" + name.substr(0, 40) + "'.");
 }
 
-std::size_t morph_targets(const File& file, const tinygltf::Node& node) {
+std::size_t morph_targets(const File& file, const Node& node) {
     if (node.mesh < 0) return 0;
     const auto& primitives = file.model.meshes[std::size_t(node.mesh)].primitives;
     return primitives.empty() ? 0 : primitives.front().targets.size();
@@ -43,7 +42,7 @@ class Channel {
             const std::string& animation_name)
         : file_(file),
           channel_(channel),
-          node_(file.model.nodes[std::size_t(channel.target_node)]),
+          node_(file.nodes[std::size_t(channel.target_node)]),
           what_(animation_name + ", " + channel.target_path.substr(0, 40) + " of " +
                 label("node", std::size_t(channel.target_node), node_.name)) {
         if (channel.sampler < 0 || std::size_t(channel.sampler) >= animation.samplers.size())
@@ -91,7 +90,7 @@ class Channel {
 
     File& file_;
     const tinygltf::AnimationChannel& channel_;
-    const tinygltf::Node& node_;
+    const Node& node_;
     std::string what_;
     const tinygltf::AnimationSampler* sampler_;
 };

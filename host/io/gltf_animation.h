@@ -1,24 +1,11 @@
 #pragma once
 /// Animations, sampled at one moment.
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "base/math.h"
 #include "io/gltf_file.h"
 
 namespace triad::gltf {
-
-/// What an animation says of a node, instead of what the node says itself.
-struct NodePose {
-    std::optional<dvec3> translation, scale;
-    std::optional<dquat> rotation;  ///< unit
-    std::vector<double> weights;    ///< of morph targets; empty: not animated
-};
-
-/// Poses by the index of their node.
-using Pose = std::map<int, NodePose>;
 
 /// The animation of that name or index; empty: the first; -1 for "none" and where the file has none. Throws
 /// Error(usage) that lists those there are.

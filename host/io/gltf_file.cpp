@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/freed_memory.h"
 #include "io/gltf_compression.h"
 #include "io/gltf_extensions.h"
 #include "io/gltf_uri.h"
@@ -17,6 +18,7 @@ using nlohmann::json;
 
 constexpr std::uint64_t file_cap = std::uint64_t(4) << 30;    // bytes of one file
 constexpr std::uint64_t total_cap = std::uint64_t(16) << 30;  // bytes of all files of a scene
+constexpr std::size_t large_text = 1 << 20;
 constexpr std::uint64_t free_budget = std::uint64_t(192) << 20;
 /// Beside one for each byte of the file, whose JSON or accessors name every place that something is at. More
 /// come of lists that many nodes share.
@@ -191,8 +193,8 @@ void check_extras(const json& document) {
 /// Removes members that no part of Triad reads, wherever they are: less to parse, nothing to trip over.
 void strip(json& document) {
     for (const char* member : {"buffers", "images", "extras"}) document.erase(member);
-    for (const char* list : {"nodes", "meshes", "materials", "accessors", "bufferViews", "scenes", "cameras",
-                             "animations", "skins"}) {
+    for (const char* list :
+         {"meshes", "materials", "accessors", "bufferViews", "scenes", "cameras", "animations", "skins"}) {
         const auto found = document.find(list);
         if (found == document.end()) continue;
         for (json& element : *found) {
@@ -222,6 +224,7 @@ void parse_model(json document, File& file) {
     }
     std::replace(error.begin(), error.end(), '\n', ' ');
     if (!parsed) throw Error(Exit::scene, "The glTF document is not valid: " + error);
+    if (text.size() > large_text) give_back_freed_memory();
 }
 
 }  // namespace
@@ -293,6 +296,7 @@ File read_file(const fs::path& path) {
     check_extensions(document, file);
     check_document(document);
     check_extras(document);
+    file.nodes = take_nodes(document);
     read_buffers(document, path.parent_path(), container, file);
     check_views(document);
     decode_meshopt(document, file);
@@ -303,7 +307,7 @@ File read_file(const fs::path& path) {
     strip(model);
     parse_model(std::move(model), file);
     if (!images.is_null()) find_images(json{{"images", std::move(images)}}, path.parent_path(), file);
-    file.report.nodes = file.model.nodes.size();
+    file.report.nodes = file.nodes.size();
     file.report.scenes = file.model.scenes.size();
     return file;
 }

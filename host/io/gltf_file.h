@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "io/gltf_json.h"
+#include "io/gltf_node.h"
 #include "io/io.h"
 
 namespace triad::gltf {
@@ -20,10 +21,11 @@ struct ImageSource {
     std::filesystem::path path;  ///< not empty: there
 };
 
-/// tinygltf sees the JSON only after check_document() and without a single URI, image or buffer, so that it
-/// opens and decodes nothing; the document's indices are all valid, and the nodes are trees.
+/// tinygltf sees the JSON only after check_document() and without a single URI, image, buffer or node, so
+/// that it opens and decodes nothing; the document's indices are all valid, and the nodes are trees.
 struct File {
-    tinygltf::Model model;                      ///< buffers and images are left empty
+    tinygltf::Model model;  ///< buffers, images and nodes are left empty
+    std::vector<Node> nodes;
     std::vector<std::optional<Bytes>> buffers;  ///< absent: a buffer without data, an error only when used
     std::vector<ImageSource> images;
     bool quantised = false;  ///< KHR_mesh_quantization is declared

@@ -2,16 +2,13 @@
 
 #include "base/error.h"
 #include "io/gltf_accessor.h"
-#include "io/gltf_node.h"
 
 namespace triad::gltf {
 
-Instancing::Instancing(File& file, const tinygltf::Value& extension, const std::string& node)
+Instancing::Instancing(File& file, const Node::Instancing& attributes, const std::string& node)
     : what_(node + ", EXT_mesh_gpu_instancing") {
-    const tinygltf::Value& attributes = extension.Get("attributes");
     std::optional<std::size_t> count;
-    for (const std::string& name : attributes.Keys()) {
-        const int accessor = attributes.Get(name).GetNumberAsInt();
+    for (const auto& [name, accessor] : attributes) {
         const std::size_t n = file.model.accessors[std::size_t(accessor)].count;
         if (count.value_or(n) != n)
             throw Error(Exit::scene, what_ + ": its attributes have different counts, " + name.substr(0, 40) +

@@ -14,7 +14,7 @@ namespace triad::gltf {
 class Instancing {
   public:
     /// `what`: the node, for messages. Throws Error(scene) for attributes of other types or different counts.
-    Instancing(File& file, const tinygltf::Value& extension, const std::string& node);
+    Instancing(File& file, const Node::Instancing& attributes, const std::string& node);
 
     std::size_t size() const { return count_; }
     /// From instance i to its node.

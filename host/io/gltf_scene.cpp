@@ -4,23 +4,22 @@
 #include <map>
 #include <new>
 
+#include "base/aligned_vector.h"
 #include "base/error.h"
+#include "base/freed_memory.h"
 #include "io/gltf_animation.h"
 #include "io/gltf_extras.h"
 #include "io/gltf_image_light.h"
 #include "io/gltf_instancing.h"
 #include "io/gltf_material.h"
-#include "io/gltf_members.h"
 #include "io/gltf_mesh.h"
-#include "io/gltf_node.h"
+#include "io/gltf_pose.h"
 #include "io/gltf_skin.h"
 #include "io/gltf_variants.h"
 #include "scene/scene.h"
 
 namespace triad::gltf {
 namespace {
-
-using tinygltf::Value;
 
 class SceneBuilder {
   public:
@@ -40,6 +39,8 @@ class SceneBuilder {
         const int chosen = choice_.scene >= 0 ? choice_.scene : std::max(file_.model.defaultScene, 0);
         if (chosen < int(scenes.size())) {
             scene_.name = scenes[std::size_t(chosen)].name;
+            scene_.instances.reserve(std::size_t(std::ranges::count_if(
+                file_.nodes, [](const Node& node) { return node.mesh >= 0 && node.instancing.empty(); })));
             walk(scenes[std::size_t(chosen)].nodes);
         }
         materials_.decode_images(choice_.max_texture);
@@ -60,21 +61,20 @@ class SceneBuilder {
     void walk(const std::vector<int>& roots) {
         std::vector<Visit> stack;
         for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({*root, true});
-        std::vector<bool> visited(file_.model.nodes.size());
+        std::vector<bool> visited(file_.nodes.size());
         while (!stack.empty()) {
             Visit visit = stack.back();
             stack.pop_back();
             const std::size_t index = std::size_t(visit.node);
-            const tinygltf::Node& node = file_.model.nodes[index];
+            const Node& node = file_.nodes[index];
             if (visited[index])
                 throw Error(Exit::scene,
                             label("node", index, node.name) + " is in the scene more than once.");
             visited[index] = true;
-            const dmat4& to_world = nodes_.to_world(index);
-            if (const Value* e = extension_of(node, "KHR_node_visibility"); e && e->Has("visible"))
-                visit.visible = visit.visible && e->Get("visible").Get<bool>();
-            if (node.mesh >= 0 && visit.visible) place_mesh(node, index);
-            if (visit.visible) place_light(node, index, to_world);
+            const dmat4 to_world = nodes_.to_world(index);
+            visit.visible = visit.visible && node.visible;
+            if (node.mesh >= 0 && visit.visible) place_mesh(node, index, to_world);
+            if (node.light >= 0 && visit.visible) place_light(node, index, to_world);
             if (node.camera >= 0) place_camera(node, index, to_world);
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
                 stack.push_back({*child, visit.visible});
@@ -82,7 +82,7 @@ class SceneBuilder {
     }
 
     /// A skin puts its mesh where the joints are, wherever its node is.
-    const Skin* skin_of(const tinygltf::Node& node) {
+    const Skin* skin_of(const Node& node) {
         if (node.skin < 0) return nullptr;
         const auto found = skins_.find(node.skin);
         return &(found != skins_.end() ? found
@@ -90,20 +90,19 @@ class SceneBuilder {
                     ->second;
     }
 
-    void place_mesh(const tinygltf::Node& node, std::size_t index) {
+    void place_mesh(const Node& node, std::size_t index, const dmat4& node_to_world) {
         const std::string what = label("node", index, node.name);
         const Skin* skin = skin_of(node);
         const std::size_t mesh = meshes_.use(node.mesh, node.skin, {nodes_.weights(index), skin});
-        const dmat4 to_world = skin ? glm::translate(dmat4(1.0), skin->centre) : nodes_.to_world(index);
+        const dmat4 to_world = skin ? glm::translate(dmat4(1.0), skin->centre) : node_to_world;
         const std::string& name = node.name.empty() ? scene_.meshes[mesh].name : node.name;
-        const Value* extension = extension_of(node, "EXT_mesh_gpu_instancing");
-        if (!extension) {
+        if (node.instancing.empty()) {
             file_.charge_instances(1, what);
             return place({name, mesh, to_world}, what);
         }
-        const Instancing instancing(file_, *extension, what);
+        const Instancing instancing(file_, node.instancing.front(), what);
         file_.charge_instances(instancing.size(), what);
-        scene_.instances.reserve(scene_.instances.size() + instancing.size());
+        reserve_more(scene_.instances, instancing.size());
         for (std::size_t i = 0; i < instancing.size(); ++i)
             place({name, mesh, to_world * instancing.transform(i)}, what);
     }
@@ -115,10 +114,8 @@ class SceneBuilder {
             file_.warn(what + " is scaled to nothing; it is left out.");
     }
 
-    void place_light(const tinygltf::Node& node, std::size_t index, const dmat4& to_world) {
-        const Value* extension = extension_of(node, "KHR_lights_punctual");
-        if (!extension) return;
-        const std::size_t which = std::size_t(number(*extension, "light", 0));
+    void place_light(const Node& node, std::size_t index, const dmat4& to_world) {
+        const auto which = std::size_t(node.light);
         const tinygltf::Light& source = file_.model.lights[which];
         const std::string what = label("light", which, source.name);
         PunctualLight light;
@@ -154,7 +151,7 @@ class SceneBuilder {
         scene_.lights.push_back(light);
     }
 
-    void place_camera(const tinygltf::Node& node, std::size_t index, const dmat4& to_world) {
+    void place_camera(const Node& node, std::size_t index, const dmat4& to_world) {
         const tinygltf::Camera& source = file_.model.cameras[std::size_t(node.camera)];
         const std::string what = label("camera", std::size_t(node.camera), source.name);
         if (!is_invertible(to_world))
@@ -185,7 +182,7 @@ class SceneBuilder {
 
     File& file_;
     const GltfChoice& choice_;
-    Nodes nodes_;
+    PosedNodes nodes_;
     std::map<int, Skin> skins_;
     Scene scene_;
     Materials materials_;
@@ -208,14 +205,20 @@ void require_whole(const GltfReport& report) {
                     " Without --strict it is rendered all the same.");
 }
 
+Scene load(const std::filesystem::path& path, const GltfChoice& choice, GltfReport* report) {
+    gltf::File file = gltf::read_file(path);
+    Scene scene = gltf::SceneBuilder(file, choice).build();
+    if (choice.strict) require_whole(file.report);
+    if (report) *report = std::move(file.report);
+    return scene;
+}
+
 }  // namespace
 
 Scene load_gltf(const std::filesystem::path& path, const GltfChoice& choice, GltfReport* report) {
     try {
-        gltf::File file = gltf::read_file(path);
-        Scene scene = gltf::SceneBuilder(file, choice).build();
-        if (choice.strict) require_whole(file.report);
-        if (report) *report = std::move(file.report);
+        Scene scene = load(path, choice, report);
+        give_back_freed_memory();  // of the document, of which nothing is left
         return scene;
     } catch (const Error& e) {
         throw gltf::named(e, path);

@@ -7,7 +7,7 @@
 
 namespace triad::gltf {
 
-Skin skin_at(File& file, Nodes& nodes, int index) {
+Skin skin_at(File& file, PosedNodes& nodes, int index) {
     const tinygltf::Skin& source = file.model.skins[std::size_t(index)];
     const std::string what = label("skin", std::size_t(index), source.name);
     const std::size_t count = source.joints.size();
@@ -22,13 +22,13 @@ Skin skin_at(File& file, Nodes& nodes, int index) {
     Skin skin;
     file.charge(count * sizeof(dmat4), what);
     for (const int joint : source.joints) {
-        const dmat4& to_world = nodes.to_world(std::size_t(joint));
+        const dmat4 to_world = nodes.to_world(std::size_t(joint));
         const dvec3 place(to_world[3]);
         for (int k = 0; k < 12; ++k)
             if (!std::isfinite(to_world[k / 3][k % 3]))
                 throw Error(Exit::scene,
                             what + ": " +
-                                label("node", std::size_t(joint), file.model.nodes[std::size_t(joint)].name) +
+                                label("node", std::size_t(joint), file.nodes[std::size_t(joint)].name) +
                                 " has a transform whose elements are no numbers.");
         skin.centre += place / double(count);
     }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/math.h"
-#include "io/gltf_node.h"
+#include "io/gltf_pose.h"
 
 namespace triad::gltf {
 
@@ -14,6 +14,6 @@ struct Skin {
 };
 
 /// Throws Error(scene) that names the skin.
-Skin skin_at(File& file, Nodes& nodes, int skin);
+Skin skin_at(File& file, PosedNodes& nodes, int skin);
 
 }  // namespace triad::gltf

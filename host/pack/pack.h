@@ -65,7 +65,7 @@ struct PackedScene {
     std::shared_ptr<const PackedSurfaces> surfaces = std::make_shared<PackedSurfaces>();
     BvhPool bvh;
     std::size_t first_placed_block = 0;  ///< of bvh.blocks: what is not instanced lies from here on
-    std::vector<dev::Instance> instance_table;
+    AlignedVector<dev::Instance> instance_table;
     AlignedVector<dev::Triangle> triangles;
     AlignedVector<dev::Geometry> geometries;
     std::vector<BvhTriangle> emitters;  ///< while packing: in the world's tree, by rising primitive

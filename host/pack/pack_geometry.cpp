@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/freed_memory.h"
 #include "base/log.h"
 #include "pack/geometry_packer.h"
 #include "pack/pack.h"
@@ -83,11 +84,15 @@ class InstancePacker {
         write_rows(world.to_world, dmat4(1.0));
         write_rows(world.to_object, dmat4(1.0));
         out_.instance_table.push_back(world);
+        std::size_t count = 0;
         for (const MeshInstance& i : scene.instances)
             if (instanced[i.mesh]) {
+                ++count;
                 float& reach = objects_[i.mesh].reach;
                 reach = std::max(reach, largest(transformed(out.reach, glm::inverse(rebase * i.to_world))));
             }
+        reserve_more(out_.instance_table, count);
+        reserve_more(boxes_, count);
     }
 
     void add(std::size_t mesh, const dmat4& to_rebased) {
@@ -107,7 +112,7 @@ class InstancePacker {
         }
     }
 
-    const std::vector<BvhInstance>& boxes() const { return boxes_; }
+    std::vector<BvhInstance> take_boxes() { return std::move(boxes_); }
 
   private:
     /// A mesh in its own space, with its tree once it was placed.
@@ -154,22 +159,15 @@ class InstancePacker {
     std::unordered_set<std::uint32_t, Hash, Equal> placed_{0, Hash{this}, Equal{this}};
 };
 
-}  // namespace
-
-void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
-    const Bounds world = bounds_of(scene);
-    packed.origin = glm::clamp(settings.view.eye, world.lo, world.hi);
-    packed.bounds = {world.lo - packed.origin, world.hi - packed.origin};
+/// Packs what is placed: `flat` gets the triangles of the world's own tree. Returns the boxes of instances.
+std::vector<BvhInstance> pack_placed(const Scene& scene, const RenderSettings& settings, PackedScene& packed,
+                                     std::vector<BvhTriangle>& flat) {
     const dmat4 rebase = glm::translate(dmat4(1.0), -packed.origin);
-
-    packed.reach = reach_of(packed.bounds, settings.view.eye - packed.origin, lens_reach(settings.view));
-
     const std::vector<bool> instanced = instanced_meshes(scene, settings.flatten_below);
     GeometryPacker packer(
         scene, packed,
         settings.view.orthographic ? std::nullopt : std::optional(settings.view.eye - packed.origin));
     InstancePacker instances(scene, packed, packer, rebase, instanced);
-    std::vector<BvhTriangle> flat;
     std::size_t flat_count = 0;
     for (const MeshInstance& i : scene.instances)
         if (!instanced[i.mesh]) flat_count += triangles_of(scene.meshes[i.mesh]);
@@ -179,7 +177,19 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
             instances.add(i.mesh, rebase * i.to_world);
         else
             packer.add_placed(scene.meshes[i.mesh], rebase * i.to_world, flat);
-    const std::vector<BvhInstance>& boxes = instances.boxes();
+    return instances.take_boxes();
+}
+
+}  // namespace
+
+void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed) {
+    const Bounds world = bounds_of(scene);
+    packed.origin = glm::clamp(settings.view.eye, world.lo, world.hi);
+    packed.bounds = {world.lo - packed.origin, world.hi - packed.origin};
+    packed.reach = reach_of(packed.bounds, settings.view.eye - packed.origin, lens_reach(settings.view));
+
+    std::vector<BvhTriangle> flat;
+    std::vector<BvhInstance> boxes = pack_placed(scene, settings, packed, flat);
     if (flat.empty() && boxes.empty())
         throw Error(Exit::scene,
                     "There is nothing to render in " + scene.name + ": its scene has no triangles.");
@@ -188,10 +198,11 @@ void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedSce
     std::copy_if(flat.begin(), flat.end(), std::back_inserter(packed.emitters), [&](const BvhTriangle& t) {
         return emits(scene.materials[packed.geometries[t.geometry].material]);
     });
-    packed.roots = build_bvh(std::move(flat), boxes, largest(packed.reach), packed.bvh);
+    packed.roots = build_bvh(std::move(flat), std::move(boxes), largest(packed.reach), packed.bvh);
+    give_back_freed_memory();
     detail("packed " + std::to_string(packed.triangles.size()) + " triangles in " +
-           std::to_string(packed.geometries.size()) + " geometries, " + std::to_string(boxes.size()) +
-           " instances");
+           std::to_string(packed.geometries.size()) + " geometries, " +
+           std::to_string(packed.instance_table.size() - 1) + " instances");
 }
 
 }  // namespace triad

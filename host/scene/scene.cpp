@@ -120,9 +120,10 @@ std::uint64_t bytes_of(const Primitive& p) {
 }
 
 std::uint64_t bytes_of(const Scene& scene) {
-    std::uint64_t bytes = sizeof(MeshInstance) * scene.instances.size();
+    std::uint64_t bytes = sizeof(MeshInstance) * scene.instances.size() + sizeof(Mesh) * scene.meshes.size() +
+                          sizeof(Material) * scene.materials.size();
     for (const Mesh& mesh : scene.meshes)
-        for (const Primitive& p : mesh.primitives) bytes += bytes_of(p);
+        for (const Primitive& p : mesh.primitives) bytes += sizeof(Primitive) + bytes_of(p);
     for (const Image& image : scene.images) bytes += image.texels.size();
     if (scene.environment) bytes += sizeof(float) * scene.environment->rgb.size();
     return bytes;

@@ -208,7 +208,7 @@ Bounds bounds_of(const Scene& scene);
 
 /// What the attributes and triangles of a primitive take on the host.
 std::uint64_t bytes_of(const Primitive& primitive);
-/// What the scene's arrays take on the host: geometry, images, the map around it, placements.
+/// What the scene takes on the host: geometry, materials, images, the map around it, placements.
 std::uint64_t bytes_of(const Scene& scene);
 
 /// Checks every invariant above (indices, lengths, finite numbers, ranges). Throws Error(scene) that names

@@ -35,7 +35,7 @@ DeviceScene::DeviceScene(Device& device, std::shared_ptr<const PackedScene> pack
     dev::SceneArguments& a = arrays_;
     add(a.nodes, nodes_on(device, packed_->bvh, packed_));
     share(a.blocks, packed_->bvh.blocks);
-    copy(a.instances, packed_->instance_table);
+    share(a.instances, packed_->instance_table);
     share(a.triangles, packed_->triangles);
     share(a.geometries, packed_->geometries);
     share(a.normals, packed_->normals);

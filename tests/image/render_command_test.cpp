@@ -13,10 +13,12 @@
 #include "io/io.h"
 #include "program.h"
 #include "running.h"
+#include "unit/gltf_builder.h"
 #include "unit/temporary_folder.h"
 
 namespace fs = std::filesystem;
 using namespace triad;
+using nlohmann::json;
 
 namespace {
 
@@ -78,21 +80,51 @@ TEST(RenderCommand, shares_of_a_render_add_up_to_it) {
     expect_done("render --size 8x8 --samples share:0/2", 1);
 }
 
+/// Bytes that the program took at most.
+std::int64_t most_memory(const std::string& arguments, const std::string& before = "") {
+    Running program(arguments, before);
+    rusage usage{};
+    EXPECT_EQ(program.wait(&usage), 0);
+    return usage.ru_maxrss * std::int64_t(1024);
+}
+
 TEST(RenderCommand, films_are_merged_in_memory_for_a_few_rows) {
     const TemporaryFolder folder;
     const std::string render = "render --size 1024x1024 --bins 2x2 --film " + (folder / "").string();
     expect_done(render + "a --samples 0:4");
     expect_done(render + "b --samples 4:8");
     ASSERT_GT(fs::file_size(folder / "a"), 150u << 20);
-    const auto most_memory = [&](const std::string& arguments) {
-        Running merging(arguments, "cd '" + (folder / "").string() + "';");
-        rusage usage{};
-        EXPECT_EQ(merging.wait(&usage), 0);
-        return usage.ru_maxrss;  // KiB
-    };
-    const long alone = most_memory("--version");
-    EXPECT_LT(most_memory("merge a b -o m -q") - alone, 32 << 10);
+    const std::string before = "cd '" + (folder / "").string() + "';";
+    EXPECT_LT(most_memory("merge a b -o m -q", before) - most_memory("--version"), 32 << 20);
     EXPECT_EQ(load_film(folder / "m").samples[0], 8u);
+}
+
+TEST(RenderCommand, many_nodes_take_little_more_memory_than_what_is_kept_of_them) {
+    const TemporaryFolder folder;
+    GltfBuilder b;
+    b.triangle();
+    const auto rendered = [&](std::size_t count, double& kept) {
+        json nodes = json::array(), roots = json::array();
+        for (std::size_t i = 0; i < count; ++i) {
+            nodes.push_back({{"mesh", 0}, {"translation", {2 * (i % 1000), 2 * (i / 1000), 0}}});
+            roots.push_back(i);
+        }
+        b.document["nodes"] = std::move(nodes);
+        b.document["scenes"][0]["nodes"] = std::move(roots);
+        b.load();
+        const std::string report = (folder / "report.json").string();
+        const std::int64_t most =
+            most_memory("render '" + (b.folder / "scene.gltf").string() +
+                        "' --size 32x32 --spp 1 -q --json " + report + " -o " + (folder / "a.png").string());
+        const json row = json::parse(bytes_of(report))["rows"][0];
+        kept = row["scene_bytes"].get<double>() + row["device_bytes"].get<double>();
+        return double(most);
+    };
+    double few_kept = 0, many_kept = 0;
+    rendered(1, few_kept);  // compiles
+    const double few = rendered(1, few_kept), many = rendered(400'000, many_kept);
+    EXPECT_GT(many_kept - few_kept, 100e6);
+    EXPECT_LT((many - few) / (many_kept - few_kept), 1.5);
 }
 
 TEST(RenderCommand, what_is_too_large_for_the_memory_is_said_before_it_is_taken) {
@@ -112,11 +144,11 @@ TEST(RenderCommand, json_tells_the_phases_and_how_it_ended) {
         run_triad("render --size 32x18 --spp 2 --progress json -o " + (folder / "a.png").string());
     ASSERT_EQ(done.exit, 0) << done.output;
     std::string phases;
-    nlohmann::json last;
+    json last;
     std::istringstream lines(done.output);
     for (std::string line; std::getline(lines, line);) {
         if (!line.starts_with("{")) continue;
-        last = nlohmann::json::parse(line);
+        last = json::parse(line);
         if (last.contains("phase")) phases += last["phase"].get<std::string>() + " ";
     }
     EXPECT_EQ(phases, "load device build compile render write end ");
@@ -129,7 +161,7 @@ TEST(RenderCommand, json_tells_the_phases_and_how_it_ended) {
     std::istringstream rest(failed.output.substr(end));
     std::string line;
     std::getline(rest, line);
-    const auto event = nlohmann::json::parse(line);
+    const auto event = json::parse(line);
     EXPECT_EQ(event.at("exit"), 2);
     EXPECT_NE(event.at("error").get<std::string>().find("no \"scene\".glb"), std::string::npos);
 }
@@ -204,7 +236,7 @@ TEST(RenderCommand, a_pixel_is_that_of_the_picture) {
          {"pixel 13, 11: 40 samples", "variance of the mean", "edges", "environment", "largest samples"})
         EXPECT_NE(told.output.find(part), std::string::npos) << part << "\n" << told.output;
     const Picture picture = read_picture(folder / "a.exr");
-    const auto row = nlohmann::json::parse(bytes_of(folder / "p.json")).at("rows").at(0);
+    const auto row = json::parse(bytes_of(folder / "p.json")).at("rows").at(0);
     const char* const channels[] = {"R", "G", "B"};
     for (std::size_t c = 0; c < 3; ++c) {
         EXPECT_NEAR(row.at("mean").at(c).get<float>(), value(picture, channels[c], 13, 11), 1e-5);
@@ -221,7 +253,7 @@ TEST(RenderCommand, an_error_or_a_time_ends_it_and_the_metadata_say_how) {
         expect_done("render --size 64x36 --aov samples,error " + goal + " -o " + (folder / "a.exr").string() +
                     " --json " + (folder / "a.json").string());
         return std::pair{read_picture(folder / "a.exr"),
-                         nlohmann::json::parse(bytes_of(folder / "a.json")).at("rows").at(0)};
+                         json::parse(bytes_of(folder / "a.json")).at("rows").at(0)};
     };
     const auto [picture, row] = render("--error 0.05");
     EXPECT_EQ(row.at("stopped_by"), "error");
@@ -254,8 +286,7 @@ TEST(RenderCommand, a_film_is_the_same_with_every_format_of_nodes_and_merges) {
         expect_done("render --size 32x18 --samples " + samples + " --format " + format + " --film " +
                     file.string() + ".film -o " + file.string() + ".exr --json " + file.string() + ".json");
         EXPECT_EQ(read_picture(file.string() + ".exr").metadata.at("triad:format"), format);
-        EXPECT_EQ(nlohmann::json::parse(bytes_of(file.string() + ".json")).at("rows").at(0).at("format"),
-                  format);
+        EXPECT_EQ(json::parse(bytes_of(file.string() + ".json")).at("rows").at(0).at("format"), format);
         return file.string() + ".film";
     };
     const std::string eight = render("bvh8", "0:4");
