@@ -10,11 +10,11 @@ namespace triad {
 namespace {
 
 std::atomic<int> level{1};
-std::mutex mutex;
+std::mutex line_mutex;
 std::function<void()> clear_line;
 
 void print(const char* prefix, const std::string& text) {
-    std::lock_guard lock(mutex);
+    std::lock_guard lock(line_mutex);
     if (clear_line) clear_line();
     std::fprintf(stderr, "%s%s\n", prefix, text.c_str());
 }
@@ -22,7 +22,7 @@ void print(const char* prefix, const std::string& text) {
 }  // namespace
 
 void before_each_line(std::function<void()> clear) {
-    std::lock_guard lock(mutex);
+    std::lock_guard lock(line_mutex);
     clear_line = std::move(clear);
 }
 
@@ -32,7 +32,7 @@ int log_level() { return level; }
 void warn(const std::string& sentence) {
     static std::set<std::string> seen;
     {
-        std::lock_guard lock(mutex);
+        std::lock_guard lock(line_mutex);
         if (!seen.insert(sentence).second) return;
     }
     if (level >= 1) print("triad: warning: ", sentence);

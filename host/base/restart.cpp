@@ -42,7 +42,7 @@ std::vector<Death>& deaths() {
 
 std::atomic<Life*> next_life = nullptr;  // of the newest Peril
 std::atomic<bool> leaving = false;
-std::mutex mutex;
+std::mutex lives_mutex;
 std::vector<Life*>& lives() {
     static auto* list = new std::vector<Life*>;  // never destroyed: exit() may come from a driver's thread
     return *list;
@@ -155,7 +155,7 @@ const std::vector<Death>& earlier_deaths() { return deaths(); }
 Peril::Peril(const std::string& note, Of of) : of_(of) {
     if (!arguments || deaths().size() >= most_deaths) return;
     next_ = life_after(note).release();
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(lives_mutex);
     lives().push_back(next_);
     next_life = next_;
     crashes().want();
@@ -164,7 +164,7 @@ Peril::Peril(const std::string& note, Of of) : of_(of) {
 
 Peril::~Peril() {
     if (!next_) return;
-    const std::lock_guard lock(mutex);
+    const std::lock_guard lock(lives_mutex);
     if (of_ == Of::calls) divisions().leave();
     crashes().leave();
     std::erase(lives(), next_);

@@ -23,7 +23,12 @@ enum class TextureOf {
 
 class TexturePacker {
   public:
-    TexturePacker(const Scene& scene, PackedSurfaces& out) : scene_(scene), out_(out) {}
+    TexturePacker(const Scene& scene, PackedSurfaces& out, bool with_levels) : scene_(scene), out_(out) {
+        // All at once: a large vector that grew would lie beside its copy.
+        std::uint64_t bytes = with_levels ? level_bytes(scene) : 0;
+        for (const Image& image : scene.images) bytes += image.texels.size();
+        out_.texels.reserve(bytes / sizeof(std::uint32_t));
+    }
 
     std::uint32_t use(const std::optional<TextureUse>& use, TextureOf what = TextureOf::values) {
         if (!use) return TRIAD_NONE;
@@ -158,7 +163,7 @@ bool has_levels(const PackedSurfaces& surfaces) {
 }
 
 void pack_materials(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces) {
-    TexturePacker textures(scene, surfaces);
+    TexturePacker textures(scene, surfaces, settings.texture_levels);
     for (const Material& m : scene.materials) {
         const TextureOf colours =
             settings.texture_levels && may_have_levels(m) ? TextureOf::averaged_colours : TextureOf::colours;
