@@ -67,40 +67,51 @@ void white_lobes_at_any_angle(Check& check) {
     };
     const Lobe lobes[] = {
         {"metal", 0.998, 1.002, [](float, float) { return Case{.metallic = 1}; }},
-        {"dielectric on Lambert", 0.994, 1.005, [](float x, float) { return Case{.ior = 1 + 2 * x}; }},
+        {"dielectric on Lambert", 0.997, 1.003, [](float x, float) { return Case{.ior = 1 + 2 * x}; }},
         {"thin wall", 0.998, 1.002, [](float x, float) { return Case{.ior = 1 + 2 * x, .transmission = 1}; }},
-        {"body from outside", 0.995, 1.004,
+        {"body from outside", 0.996, 1.004,
          [](float x, float) { return Case{.ior = 1.1f + 2 * x, .transmission = 1, .solid = 1}; }},
-        {"body from inside", 0.99, 1.005,
+        {"body from inside", 0.992, 1.005,
          [](float x, float) {
              return Case{.ior = 1.1f + 2 * x, .transmission = 1, .solid = 1, .inside = 1};
          }},
-        {"stretched metal", 0.993, 1.009,
+        {"stretched metal", 0.992, 1.008,
          [](float x, float y) { return Case{.metallic = 1, .anisotropy = x, .azimuth = 0.25f * y}; }},
-        {"sheen on Lambert", 0.97, 1.012,
+        {"sheen on Lambert", 0.992, 1.005,
          [](float x, float) { return Case{.specular = 0, .sheen = 1, .sheen_roughness = x}; }},
     };
     std::mt19937 generator(19);
     std::uniform_real_distribution<float> unit(0, 1);
     const bool tiny = check.level == CheckLevel::tiny;
     for (const Lobe& lobe : lobes) {
+        const auto excess = [&](const Furnace& f) {
+            return tiny ? std::max(f.r - 1.3, 0.7 - f.r) : std::max(f.r - lobe.most, lobe.least - f.r);
+        };
         std::vector<Case> cases;
         for (int i = 0; i < int(check.count(400, 100)); ++i) {
-            Case c = lobe.at(unit(generator), unit(generator));
+            const float x = unit(generator), y = unit(generator);
+            Case c = lobe.at(x, y);
             c.roughness = i % 2 ? unit(generator) : std::pow(10.0f, -1.5f * unit(generator));
             c.mu = i % 4 < 2 ? unit(generator) : std::pow(10.0f, -6 * unit(generator));
             cases.push_back(c);
         }
         const auto results = furnace(check, cases, tiny ? 64 : 1 << 13);
+        std::vector<Case> doubted;  // a little outside, by noise or by fault: looked at for longer
+        const auto judge = [&](const Case& c, const Furnace& f) {
+            check.at_most(excess(f), 0, lobe.name, " gives ", f.r, ", roughness ", c.roughness, ", mu ", c.mu,
+                          ", index ", c.ior, ", anisotropy ", c.anisotropy, ", azimuth ", c.azimuth,
+                          ", sheen roughness ", c.sheen_roughness);
+        };
         for (std::size_t i = 0; i < cases.size(); ++i) {
             expect_sound(check, results[i], cases[i]);
-            const auto where = [&, &c = cases[i]](auto bound) {
-                check.at_most(bound, 0, lobe.name, " gives ", results[i].r, ", roughness ", c.roughness,
-                              ", mu ", c.mu, ", index ", c.ior, ", anisotropy ", c.anisotropy, ", azimuth ",
-                              c.azimuth, ", sheen roughness ", c.sheen_roughness);
-            };
-            where(results[i].r - (tiny ? 1.3 : lobe.most)), where((tiny ? 0.7 : lobe.least) - results[i].r);
+            if (!tiny && excess(results[i]) > 0 && excess(results[i]) < 0.02)
+                doubted.push_back(cases[i]);
+            else
+                judge(cases[i], results[i]);
         }
+        if (doubted.empty()) continue;
+        const auto again = furnace(check, doubted, 1 << 18);
+        for (std::size_t i = 0; i < doubted.size(); ++i) judge(doubted[i], again[i]);
     }
 }
 

@@ -92,12 +92,13 @@ TRIAD_FUNCTION Vec2 albedo_stretched(global const float* tables, Vec3 wo, float 
 #endif
 
 #if TRIAD_SHEEN
-/* Of the white sheen lobe. */
-TRIAD_FUNCTION float albedo_sheen(global const float* tables, float root_mu, float roughness) {
+/* Of the white sheen lobe; cosine and roughness not below their minima. */
+TRIAD_FUNCTION float albedo_sheen(global const float* tables, float cosine, float roughness) {
     float ty, tx;
-    const uint row = albedo_node((roughness - SHEEN_MIN_ROUGHNESS) / (1.0f - SHEEN_MIN_ROUGHNESS),
-                                 ALBEDO_SHEEN_SIZE, &ty),
-               column = albedo_node(root_mu, ALBEDO_SHEEN_SIZE, &tx);
+    const float y = (roughness - SHEEN_MIN_ROUGHNESS) / (1.0f - SHEEN_MIN_ROUGHNESS),
+                x = (sqrt(sqrt(cosine)) - SHEEN_MIN_COSINE_ROOT) / (1.0f - SHEEN_MIN_COSINE_ROOT);
+    const uint row = albedo_node(sqrt(y), ALBEDO_SHEEN_SIZE, &ty),
+               column = albedo_node(x, ALBEDO_SHEEN_SIZE, &tx);
     global const float* p = tables + ALBEDO_SHEEN_FIRST + row * ALBEDO_SHEEN_SIZE + column;
     return math_mix(math_mix(p[0], p[1], tx), math_mix(p[ALBEDO_SHEEN_SIZE], p[ALBEDO_SHEEN_SIZE + 1], tx),
                     ty);

@@ -31,8 +31,8 @@ TRIAD_FUNCTION float sheen_lambda(float c, float t) {
     return math_exp(fma(2.0f, sheen_fit(0.5f, t), -sheen_fit(math_max(1.0f - c, 0.0f), t)));
 }
 
-/* The fit of Lambda ends at e^17 and the formula divides by the cosine: closer to the horizon than its albedo
- * is known the lobe would grow without bound, and stays what it is there. */
+/* The fit of Lambda ends at e^17 and the formula divides by the cosine: closer to the horizon the lobe would
+ * grow without bound, and stays what it is there. */
 TRIAD_FUNCTION float sheen_cosine(float c) { return math_max(c, SHEEN_MIN_COSINE); }
 
 TRIAD_FUNCTION SheenLobe sheen_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
@@ -45,7 +45,7 @@ TRIAD_FUNCTION SheenLobe sheen_make(const BsdfInput* in, Vec3 wo, global const f
     s.mix = math_square(1.0f - alpha);
     s.cosine = sheen_cosine(wo.z);
     s.lambda_wo = sheen_lambda(s.cosine, s.mix);
-    const float albedo = albedo_sheen(albedo_tables, sqrt(wo.z), roughness);
+    const float albedo = albedo_sheen(albedo_tables, s.cosine, roughness);
     s.scale = 1.0f / math_max(albedo, 1.0f);
     s.albedo = math_min(albedo, 1.0f);
     return s;
@@ -53,13 +53,14 @@ TRIAD_FUNCTION SheenLobe sheen_make(const BsdfInput* in, Vec3 wo, global const f
 
 /* f |cos wi| of the white lobe; wi.z > 0. */
 TRIAD_FUNCTION float sheen_eval(const SheenLobe* s, Vec3 wo, Vec3 wi) {
-    Vec3 h = vec3_add(wo, wi);
+    const float cosine = sheen_cosine(wi.z);
+    Vec3 h = vec3_make(wo.x + wi.x, wo.y + wi.y, s->cosine + cosine);
     float l2 = vec3_dot(h, h);
     if (!(l2 > 0.0f)) return 0.0f;
     /* sin^(1 / alpha) of the angle to the normal */
     float sine2 = math_min(fma(h.x, h.x, h.y * h.y) / l2, 1.0f);
     float d = (2.0f + s->inverse_alpha) * math_pow(sine2, 0.5f * s->inverse_alpha) * (0.5f * MATH_INV_PI);
-    float cosine = sheen_cosine(wi.z), shadowed = 1.0f + s->lambda_wo + sheen_lambda(cosine, s->mix);
+    float shadowed = 1.0f + s->lambda_wo + sheen_lambda(cosine, s->mix);
     return s->scale * d / (4.0f * s->cosine * shadowed) * (wi.z / cosine);
 }
 #endif

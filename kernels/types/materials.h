@@ -141,7 +141,8 @@ TRIAD_SIZE(MaterialExtensions, 128);
  * is n = 1 + BSDF_SAME_INDEX to 4; values of albedo_glass. Then stretched GGX reflection:
  * [r][strength][v of x][v of y] with s = sqrt(z / hypot(x, z)) and r the root of alpha_x, and the same for y;
  * the second value less that of GGX with the alpha along wo.
- * Then the white sheen lobe: [roughness from SHEEN_MIN_ROUGHNESS to 1][sqrt(mu)]. */
+ * Then the white sheen lobe: [sqrt of the roughness from SHEEN_MIN_ROUGHNESS to 1][mu^(1/4) from
+ * SHEEN_MIN_COSINE's to 1]. */
 #define ALBEDO_SIZE 48
 #define ALBEDO_GLASS_INDICES 24
 #define ALBEDO_GLASS_SIZE 32
@@ -151,8 +152,8 @@ TRIAD_SIZE(MaterialExtensions, 128);
 #define ALBEDO_STRETCHED_FIRST \
     (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_INDICES * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
 #define ALBEDO_STRETCHED_ROUGHNESSES 16
-#define ALBEDO_STRETCHED_STRENGTHS 8
-#define ALBEDO_STRETCHED_SIZE 12
+#define ALBEDO_STRETCHED_STRENGTHS 16
+#define ALBEDO_STRETCHED_SIZE 15
 #define ALBEDO_SHEEN_FIRST                                                                \
     (ALBEDO_STRETCHED_FIRST + ALBEDO_STRETCHED_ROUGHNESSES * ALBEDO_STRETCHED_STRENGTHS * \
                                   ALBEDO_STRETCHED_SIZE * ALBEDO_STRETCHED_SIZE * 2)
@@ -160,8 +161,9 @@ TRIAD_SIZE(MaterialExtensions, 128);
 #define ALBEDO_FLOATS (ALBEDO_SHEEN_FIRST + ALBEDO_SHEEN_SIZE * ALBEDO_SHEEN_SIZE)
 /* Below it fibres would be flat. */
 #define SHEEN_MIN_ROUGHNESS 0.07f
-/* The cosine of the table's first column, in place of 0. */
+/* Of the table; closer to the horizon the lobe stays as it is here. */
 #define SHEEN_MIN_COSINE 1e-3f
+#define SHEEN_MIN_COSINE_ROOT 0.17782794f /* its fourth root */
 
 /* Thin films (kernels/shading/thin_film.h): how many reflections within the film are told apart, and the
  * table of mean cosines: rows of FILM_STEP nm of optical path difference, three channels each. */

@@ -20,7 +20,7 @@ Film film_of(unsigned rays, const std::function<vec3(unsigned, unsigned)>& colou
     Film film;
     film.full_width = film.width = width, film.full_height = film.height = height;
     film.bins_x = film.bins_y = 3;
-    film.quanta_log2 = 30;
+    film.quanta_log2 = 24;
     film.samples.assign(film.pixels(), rays * 9);
     film.ranges = {{0, rays * 9}};
     film.sums.resize(film.pixels() * 36);

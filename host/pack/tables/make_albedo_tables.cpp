@@ -116,9 +116,10 @@ Pair stretched_node(const std::vector<double>& at) {
 void print_sheen() {
     for (int r = 0; r < ALBEDO_SHEEN_SIZE; ++r)
         for (int m = 0; m < ALBEDO_SHEEN_SIZE; ++m) {
-            const double root = double(m) / (ALBEDO_SHEEN_SIZE - 1), t = double(r) / (ALBEDO_SHEEN_SIZE - 1);
-            std::printf("%.8ef,\n", sheen(std::max(root * root, double(SHEEN_MIN_COSINE)),
-                                          SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * t));
+            const double x = double(m) / (ALBEDO_SHEEN_SIZE - 1), y = double(r) / (ALBEDO_SHEEN_SIZE - 1);
+            const double root = SHEEN_MIN_COSINE_ROOT + (1 - SHEEN_MIN_COSINE_ROOT) * x;
+            std::printf("%.8ef,\n",
+                        sheen(std::pow(root, 4), SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * y * y));
         }
 }
 
