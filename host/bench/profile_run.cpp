@@ -4,6 +4,12 @@
 #include "trace/path_driver.h"
 
 namespace triad {
+namespace {
+
+/// For a map of time that is nice to have.
+constexpr double most_seconds_of_tiles = 20;
+
+}  // namespace
 
 Profile profile_runs(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, unsigned runs,
                      const std::function<bool(unsigned, unsigned)>& report) {
@@ -38,7 +44,7 @@ Profile profile(Renderer& renderer, const RenderGoal& goal, std::uint32_t seed, 
     Profile p = profile_runs(renderer, goal, seed, runs, report);
     renderer.restart(seed);
     const WorkCounts counts = renderer.count_work(counted_samples);
-    p.tile_seconds = renderer.time_tiles(counted_samples);
+    p.tile_seconds = renderer.time_tiles(counted_samples, most_seconds_of_tiles);
     add_costs(p, counts, peaks_of(renderer.device()));
     return p;
 }

@@ -185,6 +185,9 @@ void set_folder(const std::filesystem::path& folder);
 std::string load(const std::string& path);
 /// The same for a text that is no file of kernels/; `path` is the name that #line gives it.
 std::string flatten(const std::string& path, const std::string& text);
+/// A driver's log about a flattened text, with our files' names and lines in the place of `<kernel>:LINE`:
+/// NVIDIA's compiler heeds no #line.
+std::string with_our_lines(const std::string& log, const std::string& flattened);
 /// One file as it is.
 std::string text(const std::string& path);
 /// Every .cl file, by path.

@@ -116,6 +116,33 @@ std::string flatten(const std::string& path, const std::string& text) {
     return flattener.text();
 }
 
+std::string with_our_lines(const std::string& log, const std::string& flattened) {
+    static const std::regex place("<kernel>:([0-9]{1,7})"), mark("#line ([0-9]+) \"([^\"]+)\"");
+    if (log.find("<kernel>:") == std::string::npos) return log;
+    std::vector<std::string> names{""};  // of each line of the text, from 1 on
+    std::istringstream lines(flattened);
+    std::string line, file;
+    std::size_t number = 0;
+    while (std::getline(lines, line)) {
+        std::smatch match;
+        if (line.starts_with("#line") && std::regex_match(line, match, mark)) {
+            file = match[2], number = std::stoul(match[1]);
+            names.push_back(file);
+        } else {
+            names.push_back(file + ":" + std::to_string(number++));
+        }
+    }
+    std::string told;
+    auto rest = log.begin();
+    for (std::sregex_iterator at(log.begin(), log.end(), place), end; at != end; ++at) {
+        const std::size_t n = std::stoul((*at)[1]);
+        told.append(rest, (*at)[0].first);
+        told += n < names.size() ? names[n] : at->str();
+        rest = (*at)[0].second;
+    }
+    return told.append(rest, log.end());
+}
+
 std::string load(const std::string& path) { return flatten(path, read(path)); }
 
 std::vector<std::string> programs() {

@@ -106,7 +106,7 @@ std::shared_ptr<void> compile(const DeviceState& state, const std::string& text,
     code = clBuildProgram(program, 1, &state.device, names.options.c_str(), nullptr, nullptr);
     if (code != CL_SUCCESS && is_pocl(core.info.platform) && is_pocl_cache_full()) peril.die("a full disk");
     Where where = names;
-    where.log = build_log(program, state.device);
+    where.log = kernel_source::with_our_lines(build_log(program, state.device), text);
     if (code != CL_SUCCESS) where.sentence = "The driver cannot compile " + names.program + ".";
     core.check("clBuildProgram", code, where);
     // PoCL reads an emptied file of its cache as a program without kernels.

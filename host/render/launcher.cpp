@@ -76,7 +76,8 @@ void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, con
                 const std::lock_guard lock(mutex_);
                 if (orders.stop()) return;
                 share.set_pace(i, tracers_[i]->pace);
-                piece = share.take(i, orders.launch_seconds(), tracers_[i]->most_tiles());
+                piece = share.take(i, orders.launch_seconds(launch_seconds * tracers_[i]->launches()),
+                                   tracers_[i]->most_tiles());
                 if (piece.count == 0) return;
                 orders.taken(i, piece);
             }
@@ -92,7 +93,8 @@ void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std
     WorkShare share(std::move(sizes), {0});
     while (!share.is_done() && !stop()) {
         share.set_pace(0, tracers_[i]->pace);  // which this thread alone changes
-        launch(i, share.take(0, launch_seconds, tracers_[i]->most_tiles()), work, first_sample);
+        launch(i, share.take(0, launch_seconds * tracers_[i]->launches(), tracers_[i]->most_tiles()), work,
+               first_sample);
     }
 }
 

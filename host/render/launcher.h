@@ -34,9 +34,9 @@ class Launcher {
 
     /// What the callers are asked and told, one at a time.
     struct Orders {
-        std::uint64_t first_sample = 0;          ///< from which those of the work are counted
-        std::function<double()> launch_seconds;  ///< of the next launch at most
-        std::function<bool()> stop;              ///< before each: leave the rest
+        std::uint64_t first_sample = 0;                     ///< from which those of the work are counted
+        std::function<double(double most)> launch_seconds;  ///< of the next launch, `most` at most
+        std::function<bool()> stop;                         ///< before each: leave the rest
         std::function<void(std::size_t tracer, WorkPiece)> taken;
     };
     /// Launches on every tracer, each in a thread of its own where there are several, until the work, which

@@ -72,6 +72,7 @@ class RenderLoop {
     bool plan_round();
     SetSamples wanted_at(double end) const;
     void reach(const SetSamples& wanted);
+    double pass_seconds() const;  ///< where one sample per pixel takes no longer
     void look();
     void estimate(bool decides);
     void name_ranges();

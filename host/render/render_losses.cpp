@@ -75,7 +75,7 @@ void RenderLoop::redo(const TileWorks& work) {
     while (!share.is_done()) {
         launcher_.run(share, work,
                       {.first_sample = goal_.samples.begin,
-                       .launch_seconds = [] { return launch_seconds; },
+                       .launch_seconds = [](double most) { return most; },
                        .stop = [] { return false; },
                        .taken = [&](std::size_t i, WorkPiece piece) { recredit(work, i, piece, {}); }});
         launcher_.require_one();

@@ -11,12 +11,21 @@
 namespace triad {
 namespace {
 
+/// Launches between two reports, where one sample per pixel takes no longer: of short ones, and of long ones.
+constexpr double launches_per_pass = 4, long_launches_per_pass = 2;
 /// Of the photons of a sample that is cut: fewer would be too noisy even for few tiles.
 constexpr double least_photon_share = 0.25;
 /// Of a pass with photons, for each device: the last one ends soon after the others.
 constexpr unsigned samples_to_share = 16;
 
 }  // namespace
+
+double RenderLoop::pass_seconds() const {
+    unsigned launches = 1;
+    for (const auto& tracer : s_.tracers) launches = std::max(launches, tracer->launches());
+    if (goal_.abandon) launches = 1;
+    return launch_seconds * std::max(launches_per_pass, long_launches_per_pass * launches);
+}
 
 /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
 /// which leaves sets uneven, and never happens before every pixel has a sample.
@@ -51,9 +60,9 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
             share, work,
             {.first_sample = goal_.samples.begin,
              .launch_seconds =
-                 [&] {
-                     return may_be_cut ? std::min(launch_seconds, schedule_.time_left(seconds()))
-                                       : launch_seconds;
+                 [&](double most) {
+                     if (goal_.abandon) most = std::min(most, launch_seconds);  // someone waits for an answer
+                     return may_be_cut ? std::min(most, schedule_.time_left(seconds())) : most;
                  },
              .stop = [&] { return is_abandoned() || (has_launched && (is_keeping_due() || time_is_up())); },
              .taken =

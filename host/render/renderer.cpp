@@ -209,9 +209,9 @@ WorkCounts Renderer::count_work(unsigned samples) {
     return triad::count_work(state_->first_alive(), samples);
 }
 
-std::vector<double> Renderer::time_tiles(unsigned samples) {
+std::vector<double> Renderer::time_tiles(unsigned samples, double most_seconds) {
     return triad::time_tiles(state_->first_alive(), tile_count(state_->film().width, state_->film().height),
-                             samples);
+                             samples, most_seconds);
 }
 
 MemoryUse Renderer::device_memory() const { return state_->first_alive().memory(); }

@@ -94,8 +94,9 @@ class Renderer {
     /// What the rays of the first samples of every pixel take, on the first device.
     WorkCounts count_work(unsigned samples);
     /// Seconds that each tile of the crop takes on the first device, so many samples of it in a launch of
-    /// their own, row by row. The film is that of no picture afterwards: restart().
-    std::vector<double> time_tiles(unsigned samples);
+    /// their own, row by row; empty where they take longer than this together. The film is that of no picture
+    /// afterwards: restart().
+    std::vector<double> time_tiles(unsigned samples, double most_seconds);
     MemoryUse device_memory() const;  ///< of the first device
 
     /// The first that has not failed.

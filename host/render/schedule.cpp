@@ -62,8 +62,8 @@ std::optional<double> Schedule::next_round(double samples, double seconds) {
         stop_ = why;
         return std::nullopt;
     };
-    if (samples > limit_ - 0.25)
-        return stop(Stop::samples);  // adaptive rounds end near their mark, not on it
+    // Adaptive rounds end near their mark, not on it; an even render that goes on may lack a few tiles' last.
+    if (samples >= limit_ || (goal_.adaptive && samples > limit_ - 0.25)) return stop(Stop::samples);
     double end = limit_;
     if (goal_.adaptive || goal_.error > 0)
         end = std::min(end, samples > 0 ? growth * samples : std::max(4.0, 2 * bins_));

@@ -35,15 +35,22 @@ std::string map_html(const std::vector<float>& values, unsigned width, unsigned 
 
 std::string maps_of(const Profile& p) {
     const WorkCounts& c = p.counts;
-    std::vector<float> visits(c.visits.size()), seconds(c.visits.size());
+    std::vector<float> visits(c.visits.size());
+    for (std::size_t i = 0; i < visits.size(); ++i) visits[i] = float(double(c.visits[i]) / c.samples);
+    std::string html =
+        "<h3>Where in the picture</h3>\n<div class=\"maps\">\n" +
+        map_html(visits, c.width, c.height, "Nodes and leaves that the paths of a sample visit", "%.0f");
+    if (p.tile_seconds.empty())
+        return html +
+               "</div>\n<p>How long each tile takes was not measured: one after the other they take "
+               "too long on this device.</p>\n";
+    std::vector<float> seconds(c.visits.size());
     const unsigned across = (c.width + FILM_TILE - 1) / FILM_TILE;
-    for (std::size_t i = 0; i < visits.size(); ++i) {
+    for (std::size_t i = 0; i < seconds.size(); ++i) {
         const std::size_t x = i % c.width, y = i / c.width, tile = y / FILM_TILE * across + x / FILM_TILE;
-        visits[i] = float(double(c.visits[i]) / c.samples);
         seconds[i] = float(1e6 * p.tile_seconds[tile] / c.samples);
     }
-    return "<h3>Where in the picture</h3>\n<div class=\"maps\">\n" +
-           map_html(visits, c.width, c.height, "Nodes and leaves that the paths of a sample visit", "%.0f") +
+    return html +
            map_html(seconds, c.width, c.height, "Microseconds of a sample of each tile, launched alone",
                     "%.3g us") +
            "</div>\n";

@@ -70,7 +70,7 @@ void set_batch(Device& device, std::uint32_t paths) {
 std::uint32_t batch_of(const Device& device) {
     const auto found = device.choices().find(batch_choice);
     const auto chosen = found == device.choices().end() ? 0ul : std::stoul(found->second);
-    return chosen > 0 ? std::uint32_t(chosen) : 2048u * std::max(1u, device.info().compute_units);
+    return chosen > 0 ? std::uint32_t(chosen) : paths_per_unit * std::max(1u, device.info().compute_units);
 }
 
 std::unique_ptr<PathDriver> make_path_driver(const DeviceScene& scene, const RenderSettings& settings,

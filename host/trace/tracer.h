@@ -41,6 +41,7 @@ class Tracer {
     /// The same, by what it is for.
     MemoryUse memory() const;
     std::size_t most_tiles() const { return driver_->most_tiles(); }  ///< of one call of trace()
+    unsigned launches() const { return driver_->launches(); }         ///< as long as so many it may take
 
     /// The part of the film is read: it begins again.
     void empty();

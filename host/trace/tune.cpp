@@ -46,7 +46,8 @@ std::vector<std::string> batches_for(const Device& device) {
     if (path_driver_of(device) != PathDriverKind::wave_stages) return {"0"};
     const std::uint32_t units = std::max(1u, device.info().compute_units);
     std::vector<std::string> sizes;
-    for (const std::uint32_t each : {2048u, 512u, 8192u}) sizes.push_back(std::to_string(units * each));
+    for (const std::uint32_t each : {paths_per_unit, paths_per_unit / 4, paths_per_unit * 4})
+        sizes.push_back(std::to_string(units * each));
     return sizes;
 }
 

@@ -14,10 +14,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr unsigned width = 256, height = 248;
-/// All tiles fit into one launch, as renders launch them.
-constexpr std::size_t all_tiles = std::size_t(width) * height / FILM_TILE_PIXELS;
-static_assert(all_tiles * FILM_TILE_PIXELS <= largest_launch_items);
+struct Size {
+    unsigned width, height;
+    std::size_t tiles() const { return std::size_t(width) * height / FILM_TILE_PIXELS; }
+};
+/// Of the pictures: a CPU's has all tiles in one launch, as renders launch them; a GPU has little to do in
+/// one so small.
+constexpr Size small_picture{256, 248}, large_picture{1024, 992};
+static_assert(std::size_t(small_picture.width) * small_picture.height <= largest_launch_items);
 /// Long enough for the last paths of a launch, which leave lanes and pools empty, to weigh as in renders.
 constexpr double launch_seconds = 0.03;
 constexpr std::uint32_t most_samples_per_launch = 256;
@@ -52,18 +56,20 @@ Scene room(bool disperses) {
 /// Samples of a room, by whatever the device follows paths with.
 class Room {
   public:
-    Room(Device& device, bool disperses) {
-        settings_.width = width, settings_.height = height;
-        settings_.view = look_at({0.0, 1.0, 0.95}, {0.0, 0.8, 0.0}, 1.3, double(width) / height);
+    Room(Device& device, bool disperses)
+        : size_(device.info().type == "cpu" ? small_picture : large_picture), all_tiles_(size_.tiles()) {
+        settings_.width = size_.width, settings_.height = size_.height;
+        settings_.view = look_at({0.0, 1.0, 0.95}, {0.0, 0.8, 0.0}, 1.3, double(size_.width) / size_.height);
         Scene scene = room(disperses);
         validate(scene);
         scene_ = std::make_shared<DeviceScene>(device, pack_for(scene, settings_, {}, {format_of(device)}));
-        shape_.full_width = shape_.width = width, shape_.full_height = shape_.height = height;
+        shape_.full_width = shape_.width = size_.width, shape_.full_height = shape_.height = size_.height;
         shape_.quanta_log2 = scene_->packed().quanta_log2;
         const auto tracer = make_tracer();
         time(*tracer);  // warms up
-        while (tiles_ < all_tiles && time(*tracer) < launch_seconds) tiles_ = std::min(2 * tiles_, all_tiles);
-        while (tiles_ == all_tiles && samples_ < most_samples_per_launch && time(*tracer) < launch_seconds)
+        while (tiles_ < all_tiles_ && time(*tracer) < launch_seconds)
+            tiles_ = std::min(2 * tiles_, all_tiles_);
+        while (tiles_ == all_tiles_ && samples_ < most_samples_per_launch && time(*tracer) < launch_seconds)
             samples_ *= 2;
     }
 
@@ -75,6 +81,8 @@ class Room {
     }
 
   private:
+    Size size_;
+    std::size_t all_tiles_;
     RenderSettings settings_;
     std::shared_ptr<const DeviceScene> scene_;
     Film shape_;
@@ -88,7 +96,7 @@ class Room {
     double time(Tracer& tracer) const {
         std::vector<dev::TileWork> work;
         for (std::size_t i = 0; i < tiles_; ++i)  // from the whole picture, also where they are few
-            work.push_back({std::uint32_t(i * all_tiles / tiles_), {0, 0}, {samples_, samples_}, {}});
+            work.push_back({std::uint32_t(i * all_tiles_ / tiles_), {0, 0}, {samples_, samples_}, {}});
         tracer.set_work(work);
         tracer.finish();
         const auto start = Clock::now();

@@ -111,6 +111,7 @@ class WaveStages : public PathDriver {
         }
     }
     std::uint64_t bytes() const override { return pools_.bytes(); }
+    unsigned launches() const override { return 8; }
 
   private:
     /// Between looks at what is left: looking after every one would leave the device waiting.

@@ -1,12 +1,16 @@
 #include "trace/work_counter.h"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 
 #include "trace/program.h"
 
 namespace triad {
 namespace {
+
+/// Tiles by whose time it is judged what all take.
+constexpr std::size_t tried_tiles = 16;
 
 void add(RayCounts& sum, const dev::RayWork& work) {
     sum.rays += work.rays, sum.nodes += work.nodes, sum.blocks += work.blocks;
@@ -76,13 +80,15 @@ WorkCounts count_work(Tracer& tracer, unsigned samples) {
     return counts;
 }
 
-std::vector<double> time_tiles(Tracer& tracer, std::size_t tiles, unsigned samples) {
+std::vector<double> time_tiles(Tracer& tracer, std::size_t tiles, unsigned samples, double most_seconds) {
     std::vector<dev::TileWork> work;
     for (std::size_t tile = 0; tile < tiles; ++tile)
         work.push_back({std::uint32_t(tile), {0, 0}, {samples, samples}, {}});
     tracer.set_work(work);
     std::vector<double> seconds;
     std::size_t ended = tracer.device().commands().size();
+    using Clock = std::chrono::steady_clock;
+    const auto began = Clock::now();
     for (std::size_t tile = 0; tile < tiles; ++tile) {
         tracer.trace(tile, 1, 0);
         tracer.finish();
@@ -91,6 +97,8 @@ std::vector<double> time_tiles(Tracer& tracer, std::size_t tiles, unsigned sampl
         for (; ended < commands.size(); ++ended)
             took += 1e-9 * double(commands[ended].end - commands[ended].start);
         seconds.push_back(took);
+        const double each = std::chrono::duration<double>(Clock::now() - began).count() / double(tile + 1);
+        if (tile >= tried_tiles && each * double(tiles) > most_seconds) return {};
     }
     return seconds;
 }

@@ -41,7 +41,8 @@ constexpr unsigned counted_samples = 4;
 WorkCounts count_work(Tracer& tracer, unsigned samples);
 
 /// Seconds on the device of so many samples of every tile, each in a launch of its own. The device must have
-/// a profiling queue. The samples are added to the tracer's part of the film.
-std::vector<double> time_tiles(Tracer& tracer, std::size_t tiles, unsigned samples);
+/// a profiling queue. The samples are added to the tracer's part of the film. Empty where the whole picture
+/// would take longer than `most_seconds`: a GPU has one tile hardly earlier than a thousand.
+std::vector<double> time_tiles(Tracer& tracer, std::size_t tiles, unsigned samples, double most_seconds);
 
 }  // namespace triad

@@ -49,6 +49,10 @@ std::string source_of(const std::string& folder, const std::string& platform) {
                           end = std::min(all.find('\n', at), all.size());
         all.replace(at, end - at, "\n" + text(all.substr(name, quote - name)) + "\n");
     }
+    // Its casts drop the address space, which compilers of OpenCL C 1.2 refuse.
+    const std::string cast = "const float* p = (float*)&cwbvhNodes";
+    for (std::size_t at; (at = all.find(cast)) != std::string::npos;)
+        all.replace(at, cast.size(), "const global float* p = (const global float*)&cwbvhNodes");
     const bool is_nvidia = platform.find("NVIDIA") != std::string::npos,
                is_amd = platform.find("AMD") != std::string::npos,
                is_intel = platform.find("Intel") != std::string::npos;

@@ -23,6 +23,16 @@ class KernelFolder : public testing::Test {
     void write(const std::string& path, const std::string& text) { std::ofstream(folder / path) << text; }
 };
 
+TEST_F(KernelFolder, logs_that_count_lines_of_the_text_get_the_lines_of_our_files) {
+    write("a.h", "a\nb\n");
+    write("main.cl", "#include \"a.h\"\nmain\n");
+    kernel_source::set_folder(folder);
+    const std::string text = kernel_source::load("main.cl");  // main is its sixth line
+    EXPECT_EQ(kernel_source::with_our_lines("<kernel>:4:7: error: b\n<kernel>:6:1: main\n<kernel>:99", text),
+              "kernels/a.h:2:7: error: b\nkernels/main.cl:2:1: main\n<kernel>:99");
+    EXPECT_EQ(kernel_source::with_our_lines("kernels/a.h:1: as it is", text), "kernels/a.h:1: as it is");
+}
+
 TEST_F(KernelFolder, flattens_each_file_once_with_marks_that_give_its_own_lines) {
     write("a.h", "a\n");
     write("sub/b.h", "#ifndef B\n#define B\n#include \"a.h\"\nb\n#endif\n");

@@ -164,6 +164,13 @@ TEST(Schedule, even_renders_give_every_bin_as_many_samples) {
     EXPECT_EQ(Schedule({.samples = {0, 64}}, 9).next_round(0, 0), 64.0) << "what was asked for exactly";
 }
 
+// A render that was stopped during its last sample lacks it in some tiles.
+TEST(Schedule, even_renders_that_go_on_end_with_all_that_was_asked_for) {
+    EXPECT_EQ(Schedule({.samples = {0, 6}}, 1).next_round(5.999, 1), 6.0);
+    EXPECT_FALSE(Schedule({.samples = {0, 6}}, 1).next_round(6, 1));
+    EXPECT_FALSE(Schedule({.samples = {0, 6}, .adaptive = true}, 1).next_round(5.8, 1)) << "near its mark";
+}
+
 TEST(Schedule, adaptive_rounds_never_more_than_double_the_samples) {
     Schedule schedule({.samples = {0, 1000}, .adaptive = true}, 1);
     double samples = 0;

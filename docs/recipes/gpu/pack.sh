@@ -27,6 +27,9 @@ for scene in $scenes; do
 done
 cp "$bin/triad-replay" "$(find "$root/build-bench" -name triad-bench-rays -type f)" \
     "$(find "$root/build-bench" -name triad-bench-resolve -type f)" "$root/docs/recipes/gpu/run.sh" "$folder"
+mkdir -p "$folder/lib" # what the programs need beside the C and C++ libraries and the OpenCL loader, which are the board's
+for program in "$folder"/triad-*; do ldd "$program"; done | awk '$3 ~ /^\// { print $3 }' | sort -u |
+    grep -vE '/(libc|libm|libgcc_s|libstdc\+\+|libOpenCL)\.so' | xargs -r cp -L -t "$folder/lib"
 if [[ -n ${TINYBVH:-} ]]; then
     mkdir -p "$folder/tinybvh"
     cp "$TINYBVH"/traverse*.cl "$folder/tinybvh"

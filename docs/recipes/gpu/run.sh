@@ -8,6 +8,7 @@ set -uo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 device=${1:?which device: a number, gpu, cpu, or part of a name}
 folder=${2:?which folder}
+export LD_LIBRARY_PATH=$here/lib${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 mkdir -p "$folder"
 summary=$folder/summary.txt
 : >"$summary"
@@ -42,7 +43,7 @@ done
 tinybvh=()
 [[ -d $here/tinybvh ]] && tinybvh=(--tinybvh "$here/tinybvh")
 for format in bvh8 bvh4; do
-    step "rays-$format" "$here/triad-bench-rays" --device "$device" --format $format "${tinybvh[@]}" \
+    step "rays-$format" "$here/triad-bench-rays" --device "$device" --format $format --size 1536 --rounds 3 "${tinybvh[@]}" \
         --json "$folder/rays-$format.json" && { echo "rays, $format"; cat "$folder/rays-$format.txt"; } | tee -a "$summary"
 done
 step display "$here/triad-bench-resolve" "$device" && tee -a "$summary" <"$folder/display.txt"
