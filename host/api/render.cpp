@@ -1,7 +1,10 @@
 #include "triad/render.h"
 
+#include <algorithm>
+
 #include "api/guard.h"
 #include "api/inside.h"
+#include "api/kept_devices.h"
 #include "api/parse.h"
 #include "base/error.h"
 #include "session/render_session.h"
@@ -42,7 +45,9 @@ Progress shown(const triad::Progress& p) {
 Film film_of(RenderRequest request, const LoadedScene& loaded,
              const std::function<bool(const triad::Progress&)>& report) {
     request.in_memory = true;
-    RenderSession session(std::move(request), loaded);
+    const RenderRequest asked = request;
+    OpenDevices devices = take_devices(asked);
+    RenderSession session(std::move(request), loaded, &devices);
     RenderOutcome outcome = session.render(report);
     if (!session.request().film_path.empty()) session.write(outcome);
     Film::Inside inside;
@@ -53,6 +58,9 @@ Film film_of(RenderRequest request, const LoadedScene& loaded,
     inside.complete = outcome.complete();
     inside.device = session.renderer().device();
     inside.film = std::move(outcome.film);
+    const auto& worked = outcome.result.devices;
+    if (std::all_of(worked.begin(), worked.end(), [](const DeviceWork& d) { return d.failure.empty(); }))
+        keep_devices(asked, std::move(devices));
     return Film(std::make_shared<const Film::Inside>(std::move(inside)));
 }
 

@@ -117,6 +117,22 @@ TEST(Library, makes_pictures_for_a_panel) {
     EXPECT_TRUE(rendered({{"panel", "rgb"}}, 9).image().pixels == panel.pixels);
 }
 
+// More choices than are kept, a render within a render's report, and one that fails.
+TEST(Library, devices_that_stay_open_change_no_bit) {
+    const std::vector<float> first = rendered({}).image().pixels;
+    for (const api::Options& options : std::vector<api::Options>{
+             {{"format", "bvh4"}}, {{"driver", "wave"}}, {{"threads", "1"}}, {{"driver", "wave-stages"}}, {}})
+        EXPECT_TRUE(rendered(options).image().pixels == first);
+    std::vector<float> within;
+    api::render(api::Scene(), {.width = 40, .height = 24, .spp = 4}, [&](const api::Progress&) {
+        if (within.empty()) within = rendered({}).image().pixels;
+        return true;
+    });
+    EXPECT_TRUE(within == first);
+    EXPECT_EQ(refusal([] { rendered({{"camera", "none such"}}); }).substr(0, 2), "1 ");
+    EXPECT_TRUE(rendered({}).image().pixels == first);
+}
+
 TEST(Library, stops_when_the_report_says_so) {
     int calls = 0;
     const api::Film film = api::render(api::Scene(), {.width = 64, .height = 36, .spp = 1000000},
