@@ -30,6 +30,10 @@ double Launcher::pace() const {
     return sum;
 }
 
+double Launcher::samples_of_launch(std::size_t i, double seconds) const {
+    return tracers_[i]->launch_times.samples_in(seconds);
+}
+
 std::uint64_t Launcher::samples_of(const dev::TileWork& w) const {
     return std::uint64_t(w.sample_count[0]) * set_pixels_[2 * w.tile] +
            std::uint64_t(w.sample_count[1]) * set_pixels_[2 * w.tile + 1];
@@ -56,6 +60,7 @@ void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::Til
     tracer.finish();
     const double took = seconds_since(start), rate = double(samples) / std::max(took, 1e-6);
     const std::lock_guard lock(mutex_);
+    tracer.launch_times.add(double(samples), took);
     // Small launches are dominated by overhead and must not make the next ones smaller still.
     tracer.pace = std::max(0.5 * (tracer.pace + rate), rate);
     busy_[i] += took, samples_[i] += samples;
@@ -76,8 +81,9 @@ void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, con
                 const std::lock_guard lock(mutex_);
                 if (orders.stop()) return;
                 share.set_pace(i, tracers_[i]->pace);
-                piece = share.take(i, orders.launch_seconds(launch_seconds * tracers_[i]->launches()),
-                                   tracers_[i]->most_tiles());
+                piece = share.take(
+                    i, samples_of_launch(i, orders.launch_seconds(launch_seconds * tracers_[i]->launches())),
+                    tracers_[i]->most_tiles());
                 if (piece.count == 0) return;
                 orders.taken(i, piece);
             }
@@ -93,8 +99,10 @@ void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std
     WorkShare share(std::move(sizes), {0});
     while (!share.is_done() && !stop()) {
         share.set_pace(0, tracers_[i]->pace);  // which this thread alone changes
-        launch(i, share.take(0, launch_seconds * tracers_[i]->launches(), tracers_[i]->most_tiles()), work,
-               first_sample);
+        launch(i,
+               share.take(0, samples_of_launch(i, launch_seconds * tracers_[i]->launches()),
+                          tracers_[i]->most_tiles()),
+               work, first_sample);
     }
 }
 

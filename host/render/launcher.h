@@ -27,6 +27,8 @@ class Launcher {
 
     /// Samples that all tracers trace in a second; 0: nothing was measured yet.
     double pace() const;
+    /// That a launch of a tracer has which is to take so many seconds; 0: nothing was measured yet.
+    double samples_of_launch(std::size_t tracer, double seconds) const;
     /// Samples that a tile's work adds up to.
     std::uint64_t samples_of(const dev::TileWork& work) const;
     /// Of this work, by the paces so far.

@@ -152,7 +152,7 @@ void RenderLoop::reach(const SetSamples& wanted) {
         std::uint64_t waiting = 0;
         for (std::size_t i = 0; i < have_.size(); ++i) waiting += (wanted[i] > have_[i]) * pixels_[i];
         if (waiting == 0) return;
-        const double fit = launcher_.pace() * pass_seconds() / double(waiting);
+        const double fit = samples_of_pass() / double(waiting);
         if (!pass(wanted, unsigned(std::clamp(fit, 1.0, longest_run))) || abandoned_) return;
         if (goal_.follow && seconds() >= next_estimate_) estimate(false);
         if (is_shared() && seconds() >= next_delivery_) gather();

@@ -72,7 +72,7 @@ class RenderLoop {
     bool plan_round();
     SetSamples wanted_at(double end) const;
     void reach(const SetSamples& wanted);
-    double pass_seconds() const;  ///< where one sample per pixel takes no longer
+    double samples_of_pass() const;  ///< where one sample per pixel is not more
     void look();
     void estimate(bool decides);
     void name_ranges();

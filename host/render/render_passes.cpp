@@ -20,11 +20,17 @@ constexpr unsigned samples_to_share = 16;
 
 }  // namespace
 
-double RenderLoop::pass_seconds() const {
+double RenderLoop::samples_of_pass() const {
     unsigned launches = 1;
-    for (const auto& tracer : s_.tracers) launches = std::max(launches, tracer->launches());
-    if (goal_.abandon) launches = 1;
-    return launch_seconds * std::max(launches_per_pass, long_launches_per_pass * launches);
+    double of_launches = 0;
+    for (std::size_t i = 0; i < s_.tracers.size(); ++i) {
+        const unsigned of_one = goal_.abandon ? 1 : s_.tracers[i]->launches();
+        launches = std::max(launches, of_one);
+        of_launches += launcher_.samples_of_launch(i, launch_seconds * of_one);
+    }
+    return std::max(
+        launcher_.pace() * launch_seconds * std::max(launches_per_pass, long_launches_per_pass * launches),
+        long_launches_per_pass * of_launches);
 }
 
 /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,

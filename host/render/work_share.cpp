@@ -9,8 +9,8 @@ namespace {
 
 /// Of what is left to all, a device takes this share of what it would do of it: the next pieces are smaller.
 constexpr double of_the_rest = 0.4;
-/// Items of a first piece, by which a pace is measured.
-constexpr std::size_t unknown_pace_items = 16;
+/// Items of a first piece, by which it is measured what they take.
+constexpr std::size_t unknown_items = 16;
 
 }  // namespace
 
@@ -41,25 +41,26 @@ double WorkShare::pace_of(std::size_t device) const {
     return known > 0 ? sum / known : 1;
 }
 
-WorkPiece WorkShare::take(std::size_t device, double seconds, std::size_t most) {
+WorkPiece WorkShare::take(std::size_t device, double fit, std::size_t most) {
     if (left_ == 0) return {};
     std::size_t from = device;
     if (parts_[device].begin == parts_[device].end)
         for (std::size_t i = 0; i < parts_.size(); ++i)
             if (double(parts_[i].left) * pace_of(from) > double(parts_[from].left) * pace_of(i)) from = i;
     Part& part = parts_[from];
-    double fit = paces_[device] * seconds;
-    if (parts_.size() > 1) {
+    const bool is_unknown = fit <= 0;
+    if (is_unknown)
+        most = std::min(most, unknown_items);
+    else if (parts_.size() > 1) {
         double all = 0;
         for (std::size_t i = 0; i < paces_.size(); ++i) all += pace_of(i);
         fit = std::min(fit, of_the_rest * double(left_) * pace_of(device) / all);
     }
-    if (paces_[device] == 0) most = std::min(most, unknown_pace_items);
     const bool own = from == device;
     WorkPiece piece{part.begin, 0};
     std::uint64_t size = 0;
     while (part.begin < part.end && piece.count < most &&
-           (piece.count == 0 || paces_[device] == 0 || double(size) < fit)) {
+           (piece.count == 0 || is_unknown || double(size) < fit)) {
         const std::size_t item = own ? part.begin++ : --part.end;
         size += sizes_[item];
         ++piece.count;

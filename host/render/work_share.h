@@ -22,9 +22,10 @@ class WorkShare {
     /// As it was last measured.
     void set_pace(std::size_t device, double pace) { paces_[device] = pace; }
 
-    /// The next piece for a device: as many items as its pace does in so many seconds, less towards the end
-    /// of the list where others work on it too, at most `most` and at least one. Empty: nothing is left.
-    WorkPiece take(std::size_t device, double seconds, std::size_t most);
+    /// The next piece for a device: items of this size together (0: a few, nothing is known of it), less
+    /// towards the end of the list where others work on it too, at most `most` and at least one. Empty:
+    /// nothing is left.
+    WorkPiece take(std::size_t device, double fit, std::size_t most);
     bool is_done() const { return left_ == 0; }
 
   private:

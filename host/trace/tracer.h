@@ -8,6 +8,7 @@
 
 #include "trace/device_scene.h"
 #include "trace/film_part.h"
+#include "trace/launch_times.h"
 #include "trace/path_driver.h"
 #include "trace/photon_tracer.h"
 
@@ -48,6 +49,7 @@ class Tracer {
 
     /// Samples that it traces in a second, by what was measured last; 0: nothing was.
     double pace = 0;
+    LaunchTimes launch_times;
     /// What its device threw, where several work on a picture: it is asked for nothing more.
     std::exception_ptr failure;
     std::string why_lost() const;  ///< a sentence; empty: it did not fail

@@ -29,7 +29,7 @@ double idle_of(const std::vector<std::uint64_t>& sizes, const std::vector<double
         const std::size_t next =
             std::size_t(std::min_element(busy_until.begin(), busy_until.end()) - busy_until.begin());
         if (known[next] > 0) share.set_pace(next, known[next]);
-        const WorkPiece piece = share.take(next, 0.05, 100000);
+        const WorkPiece piece = share.take(next, 0.05 * known[next], 100000);
         if (piece.count == 0) break;
         std::uint64_t size = 0;
         for (std::size_t i = piece.first; i < piece.first + piece.count; ++i) ++taken[i], size += sizes[i];
@@ -66,20 +66,20 @@ TEST(WorkShare, one_device_takes_all_in_order) {
     WorkShare share({10, 10, 10, 10, 10}, {1000});
     std::size_t at = 0;
     while (!share.is_done()) {
-        const WorkPiece piece = share.take(0, 0.02, 100);
+        const WorkPiece piece = share.take(0, 20, 100);
         EXPECT_EQ(piece.first, at);
         EXPECT_EQ(piece.count, std::min<std::size_t>(2, 5 - at));
         at += piece.count;
     }
-    EXPECT_EQ(share.take(0, 1, 100).count, 0u);
+    EXPECT_EQ(share.take(0, 1000, 100).count, 0u);
 }
 
 TEST(WorkShare, most_of_the_list_stays_with_one_device) {
     const std::vector<double> speeds{1e6, 2e6};
     const std::vector<std::uint64_t> sizes(3000, 1000);
     WorkShare share(sizes, speeds);
-    EXPECT_EQ(share.take(0, 1e-3, 1).first, 0u);
-    EXPECT_EQ(share.take(1, 1e-3, 1).first, 1000u);
+    EXPECT_EQ(share.take(0, 1e3, 1).first, 0u);
+    EXPECT_EQ(share.take(1, 2e3, 1).first, 1000u);
 }
 
 TEST(SampleShares, come_back_as_they_were) {
