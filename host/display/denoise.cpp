@@ -60,7 +60,13 @@ class OwnDenoiser {
     /// Chooses a filter for every pixel.
     void choose() {
         const HalfMeans halves = half_means(film_).value();
-        planes_ = planes_of(halves.first, halves.second);
+        const Buffer first = device_.upload(halves.first), second = device_.upload(halves.second);
+        const auto bounded_first = device_.allocate_array<float>(halves.first.size()),
+                   bounded_second = device_.allocate_array<float>(halves.second.size());
+        device_.run(program("denoise/choose.cl").kernel("bound_sparks"),
+                    Arguments().add(on_device_).add(first).add(second).add(bounded_first).add(bounded_second),
+                    pixels());
+        planes_ = planes_of(bounded_first, bounded_second);
         if (!film_.guides.empty()) {
             guides_ = device_.allocate_array<float>(std::size_t(DENOISE_GUIDES) * shape_.plane);
             fill("fill_guides", {device_.upload(film_.guides)}, guides_);
@@ -84,7 +90,8 @@ class OwnDenoiser {
         if (film_.bins() > 1) {
             std::vector<float> rgb(pixels() * 3);
             for (std::size_t p = 0; p < pixels(); ++p) std::copy_n(&rgba[4 * p], 3, &rgb[3 * p]);
-            regress(planes_of(rgb, rgb));
+            const Buffer colours = device_.upload(rgb);
+            regress(planes_of(colours, colours));
         }
         const Buffer means = device_.upload(rgba);
         device_.run(program("denoise/choose.cl").kernel("mix_choices"),
@@ -106,9 +113,9 @@ class OwnDenoiser {
     }
     std::size_t pixels() const { return std::size_t(shape_.width) * shape_.height; }
 
-    Buffer planes_of(const std::vector<float>& first, const std::vector<float>& second) {
+    Buffer planes_of(const Buffer& first, const Buffer& second) {
         const Buffer planes = device_.allocate_array<float>(std::size_t(DENOISE_PLANES) * shape_.plane);
-        fill("fill_planes", {device_.upload(first), device_.upload(second)}, planes);
+        fill("fill_planes", {first, second}, planes);
         return planes;
     }
     void fill(const char* kernel, const std::vector<Buffer>& from, const Buffer& to) {

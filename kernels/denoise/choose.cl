@@ -1,6 +1,37 @@
 /* What goes into the denoiser, and which of its candidates a pixel takes. */
 #include "denoise/denoise.h"
 
+/* How much a half of a pixel may have, by the other half and the pixels around. */
+TRIAD_FUNCTION float denoise_bounded(float own, float other, float around) {
+    return fmin(own, DENOISE_SPARK * fmax(other, fmax(around, 0.01f)));
+}
+
+/* Sparks: single samples of a light that hardly any finds. A filter could only spread them, so that what one
+ * half alone has far more of than there is around is bounded. first, second: as of fill_planes; bounded:
+ * first, then second. */
+kernel void bound_sparks(global const DenoiseShape* shape, global const float* first,
+                         global const float* second, global float* bounded_first,
+                         global float* bounded_second) {
+    const uint item = (uint)get_global_id(0);
+    if (item >= shape->width * shape->height) return;
+    const int x = (int)(item % shape->width), y = (int)(item / shape->width);
+    for (uint c = 0u; c < 3u; ++c) {
+        const size_t own = 3u * (size_t)item + c;
+        float around = -first[own] - second[own];
+        for (int j = -DENOISE_ERROR_REACH; j <= DENOISE_ERROR_REACH; ++j)
+            for (int i = -DENOISE_ERROR_REACH; i <= DENOISE_ERROR_REACH; ++i) {
+                const size_t q = 3u * ((size_t)denoise_inside(y + j, shape->height) * shape->width +
+                                       (size_t)denoise_inside(x + i, shape->width)) +
+                                 c;
+                around += first[q] + second[q];
+            }
+        const float side = 2.0f * DENOISE_ERROR_REACH + 1.0f;
+        around *= 0.5f / (side * side - 1.0f);
+        bounded_first[own] = denoise_bounded(first[own], second[own], around);
+        bounded_second[own] = denoise_bounded(second[own], first[own], around);
+    }
+}
+
 /* Planes of what the samples say. first, second: HalfMeans (host/scene/film.h), [pixel][3]. The variance is
  * that of the mean absolute difference around: the mean square would be the few bright pixels' alone, and
  * dark ones beside a lamp would take its light for noise. Those, too, are why r is not above the pixel's own

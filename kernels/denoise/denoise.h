@@ -20,6 +20,10 @@
 /* Pixels on each side over which a half's variance, r, and errors are averaged. */
 #define DENOISE_VARIANCE_REACH 3
 #define DENOISE_ERROR_REACH 2
+/* So many times as bright as what is around is a spark. */
+#ifndef DENOISE_SPARK
+#define DENOISE_SPARK 16.0f
+#endif
 
 /* Of a pixel, which may lie in the margin. */
 TRIAD_FUNCTION size_t denoise_at(global const DenoiseShape* shape, int x, int y) {

@@ -97,6 +97,26 @@ TEST(Denoise, takes_most_of_the_noise_and_leaves_edges) {
     for (std::size_t i = 3; i < after.size(); i += 4) ASSERT_EQ(after[i], 0.5f) << "alpha";
 }
 
+// Single samples of a light that hardly any finds, in either half; and a lamp, which all find.
+TEST(Denoise, sparks_go_and_lamps_stay) {
+    Truth truth = floor_and_wall();
+    const std::size_t lamp = 9 * width + 50;
+    for (std::size_t c = 0; c < 3; ++c) truth.colour[3 * lamp + c] = 300;
+    const Film clean = noisy_film(truth, 0.5);
+    Film film = clean;
+    const std::int64_t spark = std::int64_t(5000) << film.quanta_log2;
+    for (const std::size_t p : {5 * width + 7, 20 * width + 33, 35 * width + 60})
+        for (std::size_t c = 0; c < 3; ++c) {
+            film.sums[4 * p + c] += spark;
+            if (p % 2 == 0) film.half_sums[3 * p + c] += spark;
+        }
+    EXPECT_GT(relmse(resolve_linear(film), truth), 10);
+    const std::vector<float> after = denoised(test_device(), film, Denoiser::own).rgba,
+                             without = denoised(test_device(), clean, Denoiser::own).rgba;
+    EXPECT_LT(relmse(after, truth), 1.5 * relmse(without, truth));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(after[4 * lamp + c], 300, 60);
+}
+
 TEST(Denoise, works_without_guides_by_colours_alone) {
     const Truth truth = floor_and_wall();
     Film film = noisy_film(truth, 0.5);
