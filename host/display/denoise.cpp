@@ -65,7 +65,7 @@ class OwnDenoiser {
                    bounded_second = device_.allocate_array<float>(halves.second.size());
         device_.run(program("denoise/choose.cl").kernel("bound_sparks"),
                     Arguments().add(on_device_).add(first).add(second).add(bounded_first).add(bounded_second),
-                    pixels());
+                    3 * pixels());
         planes_ = planes_of(bounded_first, bounded_second);
         if (!film_.guides.empty()) {
             guides_ = device_.allocate_array<float>(std::size_t(DENOISE_GUIDES) * shape_.plane);

@@ -7,29 +7,26 @@ TRIAD_FUNCTION float denoise_bounded(float own, float other, float around) {
 }
 
 /* Sparks: single samples of a light that hardly any finds. A filter could only spread them, so that what one
- * half alone has far more of than there is around is bounded. first, second: as of fill_planes; bounded:
- * first, then second. */
+ * half alone has far more of than there is around is bounded. A channel of a pixel for each item; first,
+ * second: as of fill_planes. */
 kernel void bound_sparks(global const DenoiseShape* shape, global const float* first,
                          global const float* second, global float* bounded_first,
                          global float* bounded_second) {
-    const uint item = (uint)get_global_id(0);
+    const uint own = (uint)get_global_id(0), item = own / 3u;
     if (item >= shape->width * shape->height) return;
     const int x = (int)(item % shape->width), y = (int)(item / shape->width);
-    for (uint c = 0u; c < 3u; ++c) {
-        const size_t own = 3u * (size_t)item + c;
-        float around = -first[own] - second[own];
-        for (int j = -DENOISE_ERROR_REACH; j <= DENOISE_ERROR_REACH; ++j)
-            for (int i = -DENOISE_ERROR_REACH; i <= DENOISE_ERROR_REACH; ++i) {
-                const size_t q = 3u * ((size_t)denoise_inside(y + j, shape->height) * shape->width +
-                                       (size_t)denoise_inside(x + i, shape->width)) +
-                                 c;
-                around += first[q] + second[q];
-            }
-        const float side = 2.0f * DENOISE_ERROR_REACH + 1.0f;
-        around *= 0.5f / (side * side - 1.0f);
-        bounded_first[own] = denoise_bounded(first[own], second[own], around);
-        bounded_second[own] = denoise_bounded(second[own], first[own], around);
-    }
+    float around = -first[own] - second[own];
+    for (int j = -DENOISE_ERROR_REACH; j <= DENOISE_ERROR_REACH; ++j)
+        for (int i = -DENOISE_ERROR_REACH; i <= DENOISE_ERROR_REACH; ++i) {
+            const size_t q = 3u * ((size_t)denoise_inside(y + j, shape->height) * shape->width +
+                                   (size_t)denoise_inside(x + i, shape->width)) +
+                             own % 3u;
+            around += first[q] + second[q];
+        }
+    const float side = 2.0f * DENOISE_ERROR_REACH + 1.0f;
+    around *= 0.5f / (side * side - 1.0f);
+    bounded_first[own] = denoise_bounded(first[own], second[own], around);
+    bounded_second[own] = denoise_bounded(second[own], first[own], around);
 }
 
 /* Planes of what the samples say. first, second: HalfMeans (host/scene/film.h), [pixel][3]. The variance is
