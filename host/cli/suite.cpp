@@ -106,6 +106,7 @@ void add_bench_suite(CLI::App& bench, Exit& exit) {
         }
         for (const NamedOptions& scene : suite_scenes(scenes_folder()))
             o->scenes.push_back(scene.name + ": " + scene.text());
+        if (!o->common.empty()) o->baselines.clear();  // they may ask for other pictures than were scored
         exit = run_bench_error(*o);
     });
 }
