@@ -67,6 +67,12 @@ class OwnDenoiser {
                     Arguments().add(on_device_).add(first).add(second).add(bounded_first).add(bounded_second),
                     3 * pixels());
         planes_ = planes_of(bounded_first, bounded_second);
+        share_ = device_.download<float>(bounded_first);
+        const std::vector<float> other = device_.download<float>(bounded_second);
+        for (std::size_t i = 0; i < share_.size(); ++i) {
+            const float all = halves.first[i] + halves.second[i];
+            share_[i] = all > 0 ? (share_[i] + other[i]) / all : 1.0f;
+        }
         if (!film_.guides.empty()) {
             guides_ = device_.allocate_array<float>(std::size_t(DENOISE_GUIDES) * shape_.plane);
             fill("fill_guides", {device_.upload(film_.guides)}, guides_);
@@ -87,13 +93,13 @@ class OwnDenoiser {
     /// These means of the film's pixels, or of one bin of each, by the filters that were chosen: a filter is
     /// a weighted mean, whose weights are those of the pixels for every bin.
     std::vector<float> filtered(const std::vector<float>& rgba) {
+        std::vector<float> bounded = rgba, rgb(pixels() * 3);
+        for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = bounded[i / 3 * 4 + i % 3] *= share_[i];
         if (film_.bins() > 1) {
-            std::vector<float> rgb(pixels() * 3);
-            for (std::size_t p = 0; p < pixels(); ++p) std::copy_n(&rgba[4 * p], 3, &rgb[3 * p]);
             const Buffer colours = device_.upload(rgb);
             regress(planes_of(colours, colours));
         }
-        const Buffer means = device_.upload(rgba);
+        const Buffer means = device_.upload(bounded);
         device_.run(program("denoise/choose.cl").kernel("mix_choices"),
                     Arguments().add(on_device_).add(choices_).add(filtered_).add(choice_count).add(means),
                     pixels());
@@ -106,6 +112,7 @@ class OwnDenoiser {
     const unsigned lanes_;
     dev::DenoiseShape shape_{};
     Buffer on_device_, planes_, guides_, filtered_, choices_;
+    std::vector<float> share_;  ///< of a pixel's light, [pixel][3], that is no spark
 
     Program program(const char* path) const {
         return device_.build(path, {{"DENOISE_LANES", std::to_string(lanes_)},

@@ -34,6 +34,10 @@ double Launcher::samples_of_launch(std::size_t i, double seconds) const {
     return tracers_[i]->launch_times.samples_in(seconds);
 }
 
+double Launcher::call_seconds(std::size_t i) const {
+    return launch_seconds * (in_haste_ ? 1 : tracers_[i]->launches());
+}
+
 std::uint64_t Launcher::samples_of(const dev::TileWork& w) const {
     return std::uint64_t(w.sample_count[0]) * set_pixels_[2 * w.tile] +
            std::uint64_t(w.sample_count[1]) * set_pixels_[2 * w.tile + 1];
@@ -81,9 +85,8 @@ void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, con
                 const std::lock_guard lock(mutex_);
                 if (orders.stop()) return;
                 share.set_pace(i, tracers_[i]->pace);
-                piece = share.take(
-                    i, samples_of_launch(i, orders.launch_seconds(launch_seconds * tracers_[i]->launches())),
-                    tracers_[i]->most_tiles());
+                piece = share.take(i, samples_of_launch(i, orders.launch_seconds(call_seconds(i))),
+                                   tracers_[i]->most_tiles());
                 if (piece.count == 0) return;
                 orders.taken(i, piece);
             }
@@ -99,10 +102,8 @@ void Launcher::run_on(std::size_t i, const std::vector<dev::TileWork>& work, std
     WorkShare share(std::move(sizes), {0});
     while (!share.is_done() && !stop()) {
         share.set_pace(0, tracers_[i]->pace);  // which this thread alone changes
-        launch(i,
-               share.take(0, samples_of_launch(i, launch_seconds * tracers_[i]->launches()),
-                          tracers_[i]->most_tiles()),
-               work, first_sample);
+        launch(i, share.take(0, samples_of_launch(i, call_seconds(i)), tracers_[i]->most_tiles()), work,
+               first_sample);
     }
 }
 

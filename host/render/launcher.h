@@ -18,9 +18,11 @@ constexpr double launch_seconds = 0.05;
 class Launcher {
   public:
     /// `set_pixels`: of each set of the film. Both must live as long.
-    Launcher(Tracers& tracers, const std::vector<std::uint32_t>& set_pixels)
+    /// `in_haste`: someone waits between launches, so that none takes several at once.
+    Launcher(Tracers& tracers, const std::vector<std::uint32_t>& set_pixels, bool in_haste)
         : tracers_(tracers),
           set_pixels_(set_pixels),
+          in_haste_(in_haste),
           busy_(tracers.size()),
           longest_(tracers.size()),
           samples_(tracers.size()) {}
@@ -29,6 +31,8 @@ class Launcher {
     double pace() const;
     /// That a launch of a tracer has which is to take so many seconds; 0: nothing was measured yet.
     double samples_of_launch(std::size_t tracer, double seconds) const;
+    /// Seconds that a call of a tracer is to take: of a launch, or of as many as it makes at once.
+    double call_seconds(std::size_t tracer) const;
     /// Samples that a tile's work adds up to.
     std::uint64_t samples_of(const dev::TileWork& work) const;
     /// Of this work, by the paces so far.
@@ -75,6 +79,7 @@ class Launcher {
   private:
     Tracers& tracers_;
     const std::vector<std::uint32_t>& set_pixels_;
+    const bool in_haste_;
     std::vector<double> busy_, longest_;  ///< longest_: of a launch
     std::vector<std::uint64_t> samples_;
     std::mutex mutex_;

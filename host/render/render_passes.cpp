@@ -21,16 +21,14 @@ constexpr unsigned samples_to_share = 16;
 }  // namespace
 
 double RenderLoop::samples_of_pass() const {
-    unsigned launches = 1;
-    double of_launches = 0;
+    double longest = 0, of_calls = 0;
     for (std::size_t i = 0; i < s_.tracers.size(); ++i) {
-        const unsigned of_one = goal_.abandon ? 1 : s_.tracers[i]->launches();
-        launches = std::max(launches, of_one);
-        of_launches += launcher_.samples_of_launch(i, launch_seconds * of_one);
+        longest = std::max(longest, launcher_.call_seconds(i));
+        of_calls += launcher_.samples_of_launch(i, launcher_.call_seconds(i));
     }
     return std::max(
-        launcher_.pace() * launch_seconds * std::max(launches_per_pass, long_launches_per_pass * launches),
-        long_launches_per_pass * of_launches);
+        launcher_.pace() * std::max(launches_per_pass * launch_seconds, long_launches_per_pass * longest),
+        long_launches_per_pass * of_calls);
 }
 
 /// One pass: up to `run` samples for every pixel that wants more. False when time was up before its end,
@@ -67,7 +65,6 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
             {.first_sample = goal_.samples.begin,
              .launch_seconds =
                  [&](double most) {
-                     if (goal_.abandon) most = std::min(most, launch_seconds);  // someone waits for an answer
                      return may_be_cut ? std::min(most, schedule_.time_left(seconds())) : most;
                  },
              .stop = [&] { return is_abandoned() || (has_launched && (is_keeping_due() || time_is_up())); },

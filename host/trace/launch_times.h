@@ -9,7 +9,8 @@ class LaunchTimes {
   public:
     void add(double samples, double seconds);
     /// Of the next launch, which is to take so many seconds; longer, up to five times, where the longest path
-    /// would take more than half of them. 0: nothing is known yet.
+    /// would take more than half of them, and never shorter than that path and a quarter. 0: nothing is known
+    /// yet.
     double samples_in(double seconds) const;
 
   private:

@@ -15,16 +15,16 @@ kernel void bound_sparks(global const DenoiseShape* shape, global const float* f
     const uint own = (uint)get_global_id(0), item = own / 3u;
     if (item >= shape->width * shape->height) return;
     const int x = (int)(item % shape->width), y = (int)(item / shape->width);
-    float around = -first[own] - second[own];
+    float around = 0.0f, count = 0.0f;
     for (int j = -DENOISE_ERROR_REACH; j <= DENOISE_ERROR_REACH; ++j)
         for (int i = -DENOISE_ERROR_REACH; i <= DENOISE_ERROR_REACH; ++i) {
             const size_t q = 3u * ((size_t)denoise_inside(y + j, shape->height) * shape->width +
                                    (size_t)denoise_inside(x + i, shape->width)) +
                              own % 3u;
-            around += first[q] + second[q];
+            if (q == own) continue; /* also where it stands for what is beyond the border */
+            around += first[q] + second[q], count += 2.0f;
         }
-    const float side = 2.0f * DENOISE_ERROR_REACH + 1.0f;
-    around *= 0.5f / (side * side - 1.0f);
+    around /= fmax(count, 1.0f);
     bounded_first[own] = denoise_bounded(first[own], second[own], around);
     bounded_second[own] = denoise_bounded(second[own], first[own], around);
 }

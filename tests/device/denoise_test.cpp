@@ -103,18 +103,26 @@ TEST(Denoise, sparks_go_and_lamps_stay) {
     const std::size_t lamp = 9 * width + 50;
     for (std::size_t c = 0; c < 3; ++c) truth.colour[3 * lamp + c] = 300;
     const Film clean = noisy_film(truth, 0.5);
-    Film film = clean;
-    const std::int64_t spark = std::int64_t(5000) << film.quanta_log2;
-    for (const std::size_t p : {5 * width + 7, 20 * width + 33, 35 * width + 60})
-        for (std::size_t c = 0; c < 3; ++c) {
-            film.sums[4 * p + c] += spark;
-            if (p % 2 == 0) film.half_sums[3 * p + c] += spark;
-        }
-    EXPECT_GT(relmse(resolve_linear(film), truth), 10);
-    const std::vector<float> after = denoised(test_device(), film, Denoiser::own).rgba,
+    const auto with_sparks = [&](const std::vector<std::size_t>& places) {
+        Film film = clean;
+        const std::int64_t spark = std::int64_t(5000) << film.quanta_log2;
+        for (const std::size_t p : places)
+            for (std::size_t c = 0; c < 3; ++c) {
+                film.sums[4 * p + c] += spark;
+                if (p % 2 == 0) film.half_sums[3 * p + c] += spark;
+            }
+        EXPECT_GT(relmse(resolve_linear(film), truth), 10);
+        return film;
+    };
+    const Film inside = with_sparks({5 * width + 7, 20 * width + 33, 35 * width + 60}),
+               corners = with_sparks({0, height * width - 1});
+    const std::vector<float> after = denoised(test_device(), inside, Denoiser::own).rgba,
                              without = denoised(test_device(), clean, Denoiser::own).rgba;
     EXPECT_LT(relmse(after, truth), 1.5 * relmse(without, truth));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(after[4 * lamp + c], 300, 60);
+    EXPECT_LT(relmse(denoised(test_device(), corners, Denoiser::own).rgba, truth), 0.05);
+    const std::vector<float> bins = denoised(test_device(), in_bins(corners, 2), Denoiser::own).rgba;
+    EXPECT_LT(*std::max_element(bins.begin(), bins.begin() + 40), 10) << "the first of them";
 }
 
 TEST(Denoise, works_without_guides_by_colours_alone) {
