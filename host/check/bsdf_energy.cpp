@@ -45,47 +45,81 @@ void furnace_thin_wall(Check& check) {
 void furnace_solid_body(Check& check) {
     for (float ior : {1.0f, 1.009f, 1.1f, 1.33f, 1.5f, 1.8f, 2.417f, 3.5f})
         for (float inside : {0.0f, 1.0f})
-            expect_furnace(check, {.ior = ior, .transmission = 1, .solid = 1, .inside = inside}, 0.015,
-                           0.005);
+            expect_furnace(check, {.ior = ior, .transmission = 1, .solid = 1, .inside = inside}, 0.01, 0.003);
 }
 void furnace_solid_body_of_nearly_the_same_index(Check& check) {
-    // grazing total reflection of an index just above the smooth ones is the worst of the tables
+    // an index just above the smooth ones is the worst of the tables
     for (float inside : {0.0f, 1.0f})
-        expect_furnace(check, {.ior = 1.011f, .transmission = 1, .solid = 1, .inside = inside}, 0.03, 0.004);
+        expect_furnace(check, {.ior = 1.011f, .transmission = 1, .solid = 1, .inside = inside}, 0.01, 0.003);
 }
 void furnace_solid_body_with_another_reflectance(Check& check) {
     for (float inside : {0.0f, 1.0f})
-        expect_furnace(check, {.specular = 0, .transmission = 1, .solid = 1, .inside = inside}, 0.02, 0.004);
+        expect_furnace(check, {.specular = 0, .transmission = 1, .solid = 1, .inside = inside}, 0.01, 0.003);
 }
 
-/// White lobes alone, seen at any angle down to 1e-6: what each may give back at least, and at most.
+/// White lobes alone and stacked, seen at any angle down to 1e-6: what each may give back at least, and at
+/// most, in its brightest channel.
 void white_lobes_at_any_angle(Check& check) {
     struct Lobe {
         const char* name;
         double least, most;
         Case (*at)(float x, float y);
     };
+    // indices from the first that is not smooth, as many near 1 as far from it
+    static const auto index = [](float x) { return 1 + 0.0101f * std::pow(200.0f, x); };
     const Lobe lobes[] = {
-        {"metal", 0.998, 1.002, [](float, float) { return Case{.metallic = 1}; }},
-        {"dielectric on Lambert", 0.997, 1.003, [](float x, float) { return Case{.ior = 1 + 2 * x}; }},
-        {"thin wall", 0.998, 1.002, [](float x, float) { return Case{.ior = 1 + 2 * x, .transmission = 1}; }},
-        {"body from outside", 0.996, 1.004,
-         [](float x, float) { return Case{.ior = 1.1f + 2 * x, .transmission = 1, .solid = 1}; }},
-        {"body from inside", 0.992, 1.005,
-         [](float x, float) {
-             return Case{.ior = 1.1f + 2 * x, .transmission = 1, .solid = 1, .inside = 1};
+        {"metal", 0.999, 1.001, [](float, float) { return Case{.metallic = 1}; }},
+        {"dielectric on Lambert", 0.997, 1.0015, [](float x, float) { return Case{.ior = 1 + 2 * x}; }},
+        {"thin wall", 0.999, 1.001, [](float x, float) { return Case{.ior = 1 + 2 * x, .transmission = 1}; }},
+        {"body from outside", 0.993, 1.0015,
+         [](float x, float) { return Case{.ior = index(x), .transmission = 1, .solid = 1}; }},
+        {"body from inside", 0.99, 1.003,
+         [](float x, float) { return Case{.ior = index(x), .transmission = 1, .solid = 1, .inside = 1}; }},
+        {"body without specular", 0.99, 1.002,
+         [](float x, float y) {
+             return Case{
+                 .ior = index(x), .specular = 0, .transmission = 1, .solid = 1, .inside = float(y < 0.5f)};
          }},
-        {"stretched metal", 0.993, 1.008,
+        {"stretched metal", 0.993, 1.0025,
          [](float x, float y) { return Case{.metallic = 1, .anisotropy = x, .azimuth = 0.25f * y}; }},
-        {"sheen on Lambert", 0.992, 1.005,
+        {"sheen on Lambert", 0.993, 1.0025,
          [](float x, float) { return Case{.specular = 0, .sheen = 1, .sheen_roughness = x}; }},
+        {"varnish on Lambert", 0.995, 1.0015,
+         [](float x, float) { return Case{.specular = 0, .coat = 1, .coat_roughness = x * x * x}; }},
+        {"varnish on metal", 0.997, 1.0015,
+         [](float x, float) { return Case{.metallic = 1, .coat = 1, .coat_roughness = x}; }},
+        {"varnish on sheen on metal", 0.993, 1.0025,
+         [](float x, float y) {
+             return Case{.metallic = 1, .coat = 1, .coat_roughness = x, .sheen = 1, .sheen_roughness = y};
+         }},
+        {"film on a dielectric on Lambert", 0.985, 1.003,
+         [](float x, float y) {
+             return Case{.film = 1, .film_ior = 1.1f + 2 * x, .film_thickness = 1000 * y};
+         }},
+        {"film on metal", 0.997, 1.001,
+         [](float x, float y) {
+             return Case{.metallic = 1, .film = 1, .film_ior = 1.1f + 2 * x, .film_thickness = 1000 * y};
+         }},
+        {"film on a body", 0.985, 1.008,
+         [](float x, float y) {
+             return Case{.transmission = 1,
+                         .solid = 1,
+                         .inside = float(y < 0.5f),
+                         .film = 1,
+                         .film_ior = 1.1f + 2 * x,
+                         .film_thickness = 1000 * y};
+         }},
+        {"diffuse transmission", 0.997, 1.0015,
+         [](float x, float y) { return Case{.ior = 1 + 2 * x, .through = y}; }},
     };
     std::mt19937 generator(19);
     std::uniform_real_distribution<float> unit(0, 1);
     const bool tiny = check.level == CheckLevel::tiny;
     for (const Lobe& lobe : lobes) {
         const auto excess = [&](const Furnace& f) {
-            return tiny ? std::max(f.r - 1.3, 0.7 - f.r) : std::max(f.r - lobe.most, lobe.least - f.r);
+            const double energy = std::max({f.r, f.g, f.b});
+            return tiny ? std::max(energy - 1.3, 0.7 - energy)
+                        : std::max(energy - lobe.most, lobe.least - energy);
         };
         std::vector<Case> cases;
         for (int i = 0; i < int(check.count(400, 100)); ++i) {
@@ -98,13 +132,15 @@ void white_lobes_at_any_angle(Check& check) {
         const auto results = furnace(check, cases, tiny ? 64 : 1 << 13);
         std::vector<Case> doubted;  // a little outside, by noise or by fault: looked at for longer
         const auto judge = [&](const Case& c, const Furnace& f) {
-            check.at_most(excess(f), 0, lobe.name, " gives ", f.r, ", roughness ", c.roughness, ", mu ", c.mu,
-                          ", index ", c.ior, ", anisotropy ", c.anisotropy, ", azimuth ", c.azimuth,
-                          ", sheen roughness ", c.sheen_roughness);
+            check.at_most(excess(f), 0, lobe.name, " gives ", f.r, " ", f.g, " ", f.b, ", roughness ",
+                          c.roughness, ", mu ", c.mu, ", index ", c.ior, ", inside ", c.inside,
+                          ", anisotropy ", c.anisotropy, ", azimuth ", c.azimuth, ", sheen roughness ",
+                          c.sheen_roughness, ", varnish's ", c.coat_roughness, ", film of index ", c.film_ior,
+                          ", ", c.film_thickness, " nm");
         };
         for (std::size_t i = 0; i < cases.size(); ++i) {
             expect_sound(check, results[i], cases[i]);
-            if (!tiny && excess(results[i]) > 0 && excess(results[i]) < 0.02)
+            if (!tiny && excess(results[i]) > 0 && excess(results[i]) < 0.1)
                 doubted.push_back(cases[i]);
             else
                 judge(cases[i], results[i]);

@@ -84,6 +84,9 @@ nlohmann::json parse_json(std::string_view text) {
         fail(
             "The JSON starts with a byte order mark, which glTF forbids; save the file as UTF-8 without "
             "BOM.");
+    const auto first = text.find_first_not_of(" \t\r\n");
+    if (first != text.npos && std::string_view("{[\"-0123456789tfn").find(text[first]) == text.npos)
+        fail("The file is not glTF, which begins with { or, as GLB, with glTF. Convert it to .gltf or .glb.");
     check_depth(text);
     try {
         return nlohmann::json::parse(text);

@@ -65,7 +65,16 @@ fs::path path_of(const Panel& panel, double ppd, const TapDesign& design) {
     const fs::path cache = cache_folder();
     if (cache.empty()) return {};
     Hash key;
-    key.add(schema).add(panel_id(panel)).add_value(ppd).add_value(design.bins_x).add_value(design.bins_y);
+    key.add(schema).add_value(panel.cell_x).add_value(panel.cell_y);
+    // exactly: panels of one panel_id may differ by rounding, and so do their taps
+    for (const Emitter& e : panel.emitters) {
+        key.add_value(e.feed).add_value(e.pixel_x).add_value(e.pixel_y).add_value(e.luminance);
+        for (const dvec2& v : {e.chromaticity, e.centre, dvec2(e.aperture.radius)})
+            key.add_value(v.x).add_value(v.y);
+        key.add_value(e.aperture.corners.size());
+        for (const dvec2& v : e.aperture.corners) key.add_value(v.x).add_value(v.y);
+    }
+    key.add_value(ppd).add_value(design.bins_x).add_value(design.bins_y);
     key.add_value(design.cross_colour).add_value(design.reach).add_value(design.separable);
     key.add_value(design.eyes.scielab).add_value(design.eyes.sharp).add_value(design.eyes.flip);
     key.add_value(design.pull);

@@ -13,10 +13,10 @@ TRIAD_FUNCTION uint albedo_node(float x, uint size, float* t) {
     *t = p - (float)i;
     return i;
 }
-TRIAD_FUNCTION Vec2 albedo_bilinear(global const float* table, uint size, uint row, uint column, float ty,
+TRIAD_FUNCTION Vec2 albedo_bilinear(global const float* table, uint columns, uint row, uint column, float ty,
                                     float tx) {
-    global const float* p = table + (row * size + column) * 2u;
-    Vec2 a = vec2_load(p, 0), b = vec2_load(p, 1), c = vec2_load(p, size), d = vec2_load(p, size + 1u);
+    global const float* p = table + (row * columns + column) * 2u;
+    Vec2 a = vec2_load(p, 0), b = vec2_load(p, 1), c = vec2_load(p, columns), d = vec2_load(p, columns + 1u);
     return vec2_mix(vec2_mix(a, b, tx), vec2_mix(c, d, tx), ty);
 }
 /* Where a direction is on the axis of columns: s is the root of its cosine. */
@@ -38,20 +38,30 @@ TRIAD_FUNCTION Vec2 albedo_of_nodes(Vec2 nodes, float mu) {
 TRIAD_FUNCTION Vec2 albedo_ggx(global const float* tables, float mu, float roughness) {
     return albedo_of_nodes(albedo_ggx_nodes(tables, sqrt(mu), roughness), mu);
 }
+/* log2(ALBEDO_GLASS_MOST / ALBEDO_GLASS_LEAST); and, with g the ratio of n - 1 of neighbouring nodes,
+ * 4 (1/2 - 1 / (sqrt(g) + 1)): weights linear in n from ones linear in its logarithm. */
+#define ALBEDO_GLASS_OCTAVES 8.22881869f
+#define ALBEDO_GLASS_BEND 0.0919f
 /* A rough dielectric body seen from outside or inside, without the change of radiance by its index:
  * (reflection plus transmission, the same if only total reflection reflected). f0 = ((n - 1) / (n + 1))^2. */
 TRIAD_FUNCTION Vec2 albedo_glass(global const float* tables, float mu, float roughness, float f0,
                                  uint inside) {
-    const float scale = 1.0f / (ALBEDO_GLASS_MOST - ALBEDO_GLASS_LEAST);
+    const float root = sqrt(f0), alpha = math_max(roughness * roughness, 1e-4f); /* the table's least */
+    const float excess =
+        math_clamp(2.0f * root / (1.0f - root), ALBEDO_GLASS_LEAST, ALBEDO_GLASS_MOST); /* n - 1 */
     float tz, ty, tx;
-    uint plane =
-        albedo_node(fma(sqrt(sqrt(f0)), scale, -ALBEDO_GLASS_LEAST * scale), ALBEDO_GLASS_INDICES, &tz);
-    uint row = albedo_node(roughness, ALBEDO_GLASS_SIZE, &ty),
-         column = albedo_node(albedo_column(sqrt(mu), roughness), ALBEDO_GLASS_SIZE, &tx);
-    const uint size = ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2u;
-    global const float* table = tables + ALBEDO_GLASS_FIRST + (inside * ALBEDO_GLASS_INDICES + plane) * size;
-    Vec2 lo = albedo_bilinear(table, ALBEDO_GLASS_SIZE, row, column, ty, tx);
-    Vec2 hi = albedo_bilinear(table + size, ALBEDO_GLASS_SIZE, row, column, ty, tx);
+    const uint plane =
+        albedo_node(math_log2(excess * (1.0f / ALBEDO_GLASS_LEAST)) * (1.0f / ALBEDO_GLASS_OCTAVES),
+                    ALBEDO_GLASS_INDICES, &tz);
+    tz = fma(ALBEDO_GLASS_BEND * tz, tz - 1.0f, tz);
+    const float per_b = (1.0f / alpha + 1.0f / excess) * (1.0f / ALBEDO_GLASS_SCALE);
+    const uint row = albedo_node(sqrt(fma(2.0f, roughness, 0.25f)) - 0.5f, ALBEDO_GLASS_ROUGHNESSES, &ty),
+               column = albedo_node(math_log2(fma(mu, per_b, 1.0f)) / math_log2(1.0f + per_b),
+                                    ALBEDO_GLASS_COLUMNS, &tx);
+    const uint size = ALBEDO_GLASS_ROUGHNESSES * ALBEDO_GLASS_COLUMNS * 2u;
+    global const float* table = tables + ALBEDO_GLASS_FIRST + inside * ALBEDO_GLASS_SIDE + plane * size;
+    const Vec2 lo = albedo_bilinear(table, ALBEDO_GLASS_COLUMNS, row, column, ty, tx);
+    const Vec2 hi = albedo_bilinear(table + size, ALBEDO_GLASS_COLUMNS, row, column, ty, tx);
     return vec2_mix(lo, hi, tz);
 }
 

@@ -6,11 +6,15 @@
 
 #if BSDF_FILM
 #define FILM_NORMALS 24u
-/* Of that many visible normals of the rough base. */
-TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k) {
-    const float turn = ((float)k + 0.5f) * 0.618034f;
-    return base_normal(b, wo, 1.0f,
-                       vec2_make(turn - math_floor(turn), ((float)k + 0.5f) * (1.0f / FILM_NORMALS)));
+#define FILM_BODY_NORMALS 64u
+/* Their mean m is too low by less than this times m (1 - m): lost rather than gained. */
+#define FILM_MARGIN 0.025f
+/* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
+ * root, for the few that lean far reflect most. */
+TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
+    const float turn = ((float)k + 0.5f) * 0.618034f, t = ((float)k + 0.5f) * share;
+    *weight = 2.0f * t * share;
+    return base_normal(b, wo, 1.0f, vec2_make(turn - math_floor(turn), fma(-t, t, 1.0f)));
 }
 /* Share of what a visible normal scatters to w.z above the surface that is not masked: G2 / G1. */
 TRIAD_FUNCTION float base_unmasked(const BaseBsdf* b, Vec3 wo, Vec3 w) {
@@ -23,21 +27,25 @@ TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
     Colour sum = colour_splat(0.0f);
     float weights = 0.0f;
     for (uint k = 0u; k < FILM_NORMALS; ++k) {
-        const Vec3 h = base_film_normal(b, wo, k);
-        const float seen = base_unmasked(b, wo, vec3_reflect(wo, h));
+        float weight;
+        const Vec3 h = base_film_normal(b, wo, k, 1.0f / FILM_NORMALS, &weight);
+        const float seen = weight * base_unmasked(b, wo, vec3_reflect(wo, h));
         if (seen <= 0.0f) continue;
         sum = colour_fma_scale(seen, base_film(b, math_min(vec3_dot(wo, h), 1.0f)), sum);
         weights += seen;
     }
-    return weights > 0.0f ? colour_scale(sum, 1.0f / weights) : base_film(b, wo.z);
+    if (weights <= 0.0f) return base_film(b, wo.z);
+    const Colour mean = colour_scale(sum, 1.0f / weights);
+    return colour_fma_scale(FILM_MARGIN, colour_mul(mean, colour_complement(mean)), mean);
 }
 #if BSDF_TRANSMISSION
 /* What a film of share 1 adds to the albedo of a rough body: it reflects more than the interface that the
  * table is of, and what is reflected is masked otherwise than what is refracted. */
 TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
     Colour sum = colour_splat(0.0f);
-    for (uint k = 0u; k < FILM_NORMALS; ++k) {
-        const Vec3 h = base_film_normal(b, wo, k);
+    for (uint k = 0u; k < FILM_BODY_NORMALS; ++k) {
+        float weight;
+        const Vec3 h = base_film_normal(b, wo, k, 1.0f / FILM_BODY_NORMALS, &weight);
         const float c = math_min(vec3_dot(wo, h), 1.0f), beyond = fresnel_refracted_cosine(c, b->eta);
         if (beyond <= 0.0f) continue; /* total reflection is that, with a film too */
         float more = base_unmasked(b, wo, vec3_reflect(wo, h));
@@ -46,9 +54,9 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
             vec3_sub(vec3_scale(wo, 1.0f / b->eta), vec3_scale(h, c / b->eta - beyond))); /* its opposite */
         Colour rise = base_film(b, c);
         rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
-        sum = colour_fma_scale(more, rise, sum);
+        sum = colour_fma_scale(weight * more, rise, sum);
     }
-    return colour_scale(sum, 1.0f / FILM_NORMALS);
+    return sum;
 }
 #endif
 

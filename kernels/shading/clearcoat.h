@@ -11,8 +11,8 @@
 #if TRIAD_CLEARCOAT
 /* Reflectance of index 1.5 at normal incidence. */
 #define COAT_F0 0.04f
-/* The least alpha: a smooth varnish is sampled as any other, so that it needs no delta lobe. */
-#define COAT_MIN_ALPHA 1e-4f
+/* The least roughness: a smooth varnish is sampled as any other, so that it needs no delta lobe. */
+#define COAT_MIN_ROUGHNESS 1e-2f
 
 typedef struct CoatLobe {
     ShadingFrame frame; /* about its normal, in the local frame of the material */
@@ -25,7 +25,7 @@ typedef struct CoatLobe {
 /* Albedo of the lobe as seen at a cosine to its normal; weight: as of CoatLobe. */
 TRIAD_FUNCTION float coat_albedo(global const float* albedo_tables, float factor, float roughness,
                                  float cosine, float* weight) {
-    Vec2 e = albedo_ggx(albedo_tables, math_min(cosine, 1.0f), roughness);
+    Vec2 e = albedo_ggx(albedo_tables, math_min(cosine, 1.0f), math_max(roughness, COAT_MIN_ROUGHNESS));
     *weight = factor * fma((1.0f - e.x) / e.x, COAT_F0, 1.0f);
     return *weight * fma(COAT_F0, e.x, (1.0f - COAT_F0) * e.y);
 }
@@ -37,7 +37,7 @@ TRIAD_FUNCTION CoatLobe coat_make(const BsdfInput* in, Vec3 wo, global const flo
     c.frame = frame_make(in->coat_normal);
     c.wo = frame_to_local(&c.frame, wo);
     if (!(c.wo.z > 0.0f)) return c;
-    c.alpha = math_max(math_square(in->coat_roughness), COAT_MIN_ALPHA);
+    c.alpha = math_square(math_max(in->coat_roughness, COAT_MIN_ROUGHNESS));
     c.stretch = ggx_stretch(c.wo, c.alpha);
     c.cap = ggx_cap(c.wo, c.alpha);
     c.albedo = coat_albedo(albedo_tables, in->coat, in->coat_roughness, c.wo.z, &c.weight);

@@ -136,21 +136,25 @@ TRIAD_SIZE(MaterialExtensions, 128);
  *   v = s (1 + r) / (s + r),  s = sqrt(mu),
  * which is 0 along the surface and 1 along the normal, and they depend on mu / alpha alone where both are
  * small. Two values per node: E with Fresnel factor 1, and B / E - (1 - mu)^5, where B is the same with
- * (1 - cos)^5. First GGX reflection: [r][v]. Then rough dielectric bodies: [outside, inside][index][r][v],
- * node i of the index axis at sqrt((n - 1) / (n + 1)) = ALBEDO_GLASS_LEAST to ALBEDO_GLASS_MOST evenly, which
- * is n = 1 + BSDF_SAME_INDEX to 4; values of albedo_glass. Then stretched GGX reflection:
- * [r][strength][v of x][v of y] with s = sqrt(z / hypot(x, z)) and r the root of alpha_x, and the same for y;
- * the second value less that of GGX with the alpha along wo.
+ * (1 - cos)^5. First GGX reflection: [r][v]. Then rough dielectric bodies: [outside, inside][index][row]
+ * [column], values of albedo_glass. Nodes of the index are at even logarithms of n - 1 from
+ * ALBEDO_GLASS_LEAST to ALBEDO_GLASS_MOST, and linear in n between. Rows are even in y, r = y (y + 1) / 2.
+ * What leaves a body near its surface depends on how far it is refracted, too: columns are even in
+ *   log(1 + mu / b) / log(1 + 1 / b),  1 / b = (1 / alpha + 1 / (n - 1)) / ALBEDO_GLASS_SCALE.
+ * Then stretched GGX reflection: [r][strength][v of x][v of y] with s = sqrt(z / hypot(x, z)) and r the root
+ * of alpha_x, and the same for y; the second value less that of GGX with the alpha along wo.
  * Then the white sheen lobe: [sqrt of the roughness from SHEEN_MIN_ROUGHNESS to 1][mu^(1/4) from
  * SHEEN_MIN_COSINE's to 1]. */
 #define ALBEDO_SIZE 48
-#define ALBEDO_GLASS_INDICES 24
-#define ALBEDO_GLASS_SIZE 32
-#define ALBEDO_GLASS_LEAST 0.070535f
-#define ALBEDO_GLASS_MOST 0.774597f
+#define ALBEDO_GLASS_INDICES 32
+#define ALBEDO_GLASS_ROUGHNESSES 32
+#define ALBEDO_GLASS_COLUMNS 40
+#define ALBEDO_GLASS_LEAST 0.01f
+#define ALBEDO_GLASS_MOST 3.0f
+#define ALBEDO_GLASS_SCALE 0.1f
+#define ALBEDO_GLASS_SIDE (ALBEDO_GLASS_INDICES * ALBEDO_GLASS_ROUGHNESSES * ALBEDO_GLASS_COLUMNS * 2)
 #define ALBEDO_GLASS_FIRST (ALBEDO_SIZE * ALBEDO_SIZE * 2)
-#define ALBEDO_STRETCHED_FIRST \
-    (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_INDICES * ALBEDO_GLASS_SIZE * ALBEDO_GLASS_SIZE * 2)
+#define ALBEDO_STRETCHED_FIRST (ALBEDO_GLASS_FIRST + 2 * ALBEDO_GLASS_SIDE)
 #define ALBEDO_STRETCHED_ROUGHNESSES 16
 #define ALBEDO_STRETCHED_STRENGTHS 16
 #define ALBEDO_STRETCHED_SIZE 15

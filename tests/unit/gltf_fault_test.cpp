@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <string>
 #include <vector>
@@ -128,6 +129,19 @@ TEST(GltfFault, strict_is_an_option_of_render_and_info) {
         const Outcome outcome = run_triad(command + file + " --strict");
         EXPECT_EQ(outcome.exit, 2) << outcome.output;
         EXPECT_NE(outcome.output.find("without length"), std::string::npos) << outcome.output;
+    }
+}
+
+TEST(GltfFault, files_of_other_kinds_are_told_for_what_they_are_not) {
+    const GltfBuilder b;
+    const std::string picture(reinterpret_cast<const char*>(png(1, 1).data()), 16);
+    for (const std::string& text :
+         {picture, std::string("# Blender\nmtllib a.mtl\n"), std::string("\xff\xd8\xff")}) {
+        const std::filesystem::path file = b.folder / "other.glb";
+        std::ofstream(file, std::ios::binary) << text;
+        const Outcome info = run_triad("info '" + file.string() + "'");
+        EXPECT_EQ(info.exit, 2);
+        EXPECT_NE(info.output.find("not glTF"), std::string::npos) << info.output;
     }
 }
 

@@ -59,6 +59,13 @@ TEST_F(KeptTapsElsewhere, are_read_back_and_told_apart) {
     EXPECT_EQ(files().size(), 6u);
 }
 
+TEST_F(KeptTapsElsewhere, of_panels_that_differ_by_rounding_are_their_own) {
+    const Panel bgr = *builtin_panel("bgr"), turned_rgb = *builtin_panel("rgb@180");
+    ASSERT_EQ(panel_id(bgr), panel_id(turned_rgb));
+    kept_taps(turned_rgb, 45);
+    expect_same(kept_taps(bgr, 45), design_taps(bgr, 45), "bgr after rgb@180");
+}
+
 TEST_F(KeptTapsElsewhere, are_designed_again_when_their_file_is_damaged) {
     const Panel rgb = *builtin_panel("rgb");
     const TapTable fresh = design_taps(rgb, 45);

@@ -21,9 +21,9 @@ class Table {
         nodes_.resize(count);
         in_parallel([&](int i) { nodes_[i] = function_(place(i, 0)); });
     }
-    /// Nodes around a cell whose middle is above the mean of its corners are raised by as much: lobes are
-    /// divided by their albedo, so that what is between nodes may lose energy and not gain it.
-    Table& raise() {
+    /// Nodes around a cell whose middle is above the mean of its corners are raised by this share of it:
+    /// lobes are divided by their albedo, so that what is between nodes may lose energy and not gain it.
+    Table& raise(double share = 1) {
         const int corners = 1 << sizes_.size();
         std::vector<Pair> missing(nodes_.size());
         const auto corner = [&](int node, int k) {  // -1 beyond the table
@@ -53,11 +53,15 @@ class Table {
                     up[at].second = std::max(up[at].second, missing[i].second);
                 }
         for (int i = 0; i < int(nodes_.size()); ++i)
-            nodes_[i].first += up[i].first, nodes_[i].second += up[i].second;
+            nodes_[i].first += share * up[i].first, nodes_[i].second += share * up[i].second;
         return *this;
     }
-    void print() const {
-        for (Pair p : nodes_) std::printf("%.8ef, %.8ef,\n", p.first, p.second);
+    /// As many values of each node as there are.
+    void print(int values) const {
+        for (Pair p : nodes_) {
+            std::printf("%.8ef,\n", p.first);
+            if (values > 1) std::printf("%.8ef,\n", p.second);
+        }
     }
 
   private:
@@ -91,16 +95,25 @@ double cosine(double v, double roughness) {
     const double root = v >= 1 ? 1 : roughness * v / (1 + roughness - v);
     return std::max(root * root, 1e-7);
 }
-Pair as_node(Pair p, double mu) { return {p.first, p.second / p.first - std::pow(1 - mu, 5)}; }
+Pair as_node(Pair p, double mu) { return {p.first, p.second / p.first - schlick(mu)}; }
 
 Pair ggx_node(const std::vector<double>& at) {
     const double roughness = row(at[0]), mu = cosine(at[1], roughness);
     return as_node(ggx(mu, roughness * roughness), mu);
 }
+/// Index minus 1 at a place of its axis: nodes at even logarithms, linear between them.
+double excess(double at) {
+    const double step = std::log(double(ALBEDO_GLASS_MOST) / ALBEDO_GLASS_LEAST) / (ALBEDO_GLASS_INDICES - 1);
+    const double node = std::floor(at * (ALBEDO_GLASS_INDICES - 1)),
+                 t = at * (ALBEDO_GLASS_INDICES - 1) - node;
+    return ALBEDO_GLASS_LEAST * std::exp(node * step) * (1 + t * (std::exp(step) - 1));
+}
 Pair glass_node(const std::vector<double>& at, bool inside) {
-    const double z = ALBEDO_GLASS_LEAST + (double(ALBEDO_GLASS_MOST) - ALBEDO_GLASS_LEAST) * at[0];
-    const double ior = (1 + z * z) / (1 - z * z), roughness = row(at[1]);
-    return glass(cosine(at[2], roughness), roughness * roughness, inside ? 1 / ior : ior);
+    const double index = 1 + excess(at[0]), roughness = row(at[1] * (at[1] + 1) / 2),
+                 alpha = roughness * roughness;
+    const double b = ALBEDO_GLASS_SCALE / (1 / alpha + 1 / (index - 1));
+    const double mu = std::max(b * std::expm1(at[2] * std::log1p(1 / b)), 1e-7);
+    return glass(std::min(mu, 1.0), alpha, inside ? 1 / index : index);
 }
 Pair stretched_node(const std::vector<double>& at) {
     const double alpha = std::max(at[0] * at[0], double(BSDF_SMOOTH_ALPHA)),
@@ -113,14 +126,9 @@ Pair stretched_node(const std::vector<double>& at) {
     return {whole.first, whole.second / whole.first - round.second / round.first};
 }
 
-void print_sheen() {
-    for (int r = 0; r < ALBEDO_SHEEN_SIZE; ++r)
-        for (int m = 0; m < ALBEDO_SHEEN_SIZE; ++m) {
-            const double x = double(m) / (ALBEDO_SHEEN_SIZE - 1), y = double(r) / (ALBEDO_SHEEN_SIZE - 1);
-            const double root = SHEEN_MIN_COSINE_ROOT + (1 - SHEEN_MIN_COSINE_ROOT) * x;
-            std::printf("%.8ef,\n",
-                        sheen(std::pow(root, 4), SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * y * y));
-        }
+Pair sheen_node(const std::vector<double>& at) {
+    const double root = SHEEN_MIN_COSINE_ROOT + (1 - SHEEN_MIN_COSINE_ROOT) * at[1];
+    return {sheen(std::pow(root, 4), SHEEN_MIN_ROUGHNESS + (1 - SHEEN_MIN_ROUGHNESS) * at[0] * at[0])};
 }
 
 }  // namespace
@@ -128,14 +136,16 @@ void print_sheen() {
 
 int main() {
     using namespace triad::albedo;
-    Table({ALBEDO_SIZE, ALBEDO_SIZE}, ggx_node).raise().print();
+    Table({ALBEDO_SIZE, ALBEDO_SIZE}, ggx_node).raise().print(2);
     for (bool inside : {false, true})
-        Table({ALBEDO_GLASS_INDICES, ALBEDO_GLASS_SIZE, ALBEDO_GLASS_SIZE}, [inside](const auto& at) {
-            return glass_node(at, inside);
-        }).print();
+        Table({ALBEDO_GLASS_INDICES, ALBEDO_GLASS_ROUGHNESSES, ALBEDO_GLASS_COLUMNS},
+              [inside](const auto& at) { return glass_node(at, inside); })
+            .raise()
+            .print(2);
     Table({ALBEDO_STRETCHED_ROUGHNESSES, ALBEDO_STRETCHED_STRENGTHS, ALBEDO_STRETCHED_SIZE,
            ALBEDO_STRETCHED_SIZE},
           stretched_node)
-        .print();
-    print_sheen();
+        .raise(0.75)  // the whole would cost more light than it saves
+        .print(2);
+    Table({ALBEDO_SHEEN_SIZE, ALBEDO_SHEEN_SIZE}, sheen_node).raise().print(1);
 }
