@@ -70,9 +70,9 @@ Case filmed(Case c, float x, float y) {
     return c;
 }
 const WhiteLobe white_lobes[] = {
-    {"metal", 0.999, 1.001, [](float, float) { return Case{.metallic = 1}; }},
+    {"metal", 0.998, 1.001, [](float, float) { return Case{.metallic = 1}; }},
     {"dielectric on Lambert", 0.997, 1.0015, [](float x, float) { return Case{.ior = 1 + 2 * x}; }},
-    {"thin wall", 0.999, 1.001, [](float x, float) { return Case{.ior = 1 + 2 * x, .transmission = 1}; }},
+    {"thin wall", 0.998, 1.001, [](float x, float) { return Case{.ior = 1 + 2 * x, .transmission = 1}; }},
     {"body from outside", 0.996, 1.0015, [](float x, float) { return body(1.1f + 2 * x, 0); }},
     {"body from inside", 0.992, 1.0025, [](float x, float) { return body(1.1f + 2 * x, 1); }},
     {"body of nearly the same index from outside", 0.993, 1.0015,
@@ -93,7 +93,7 @@ const WhiteLobe white_lobes[] = {
      [](float x, float) { return Case{.specular = 0, .coat = 1, .coat_roughness = x * x * x}; }},
     {"varnish on metal", 0.997, 1.0015,
      [](float x, float) { return Case{.metallic = 1, .coat = 1, .coat_roughness = x}; }},
-    {"varnish on sheen on metal", 0.993, 1.0025,
+    {"varnish on sheen on metal", 0.99, 1.0025,
      [](float x, float y) {
          return Case{.metallic = 1, .coat = 1, .coat_roughness = x, .sheen = 1, .sheen_roughness = y};
      }},
