@@ -142,7 +142,7 @@ void judge(Check& check, const WhiteLobe& lobe, std::mt19937& generator) {
             decide(cases[i], results[i]);
     }
     if (doubted.empty()) return;
-    const auto again = furnace(check, doubted, 1 << 18);
+    const auto again = furnace(check, doubted, 1 << 21);
     for (std::size_t i = 0; i < doubted.size(); ++i) decide(doubted[i], again[i]);
 }
 
