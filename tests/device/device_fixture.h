@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "device/device.h"
+#include "kernels/types.h"
 #include "trace/tune.h"
 
 namespace triad {
@@ -25,5 +26,8 @@ inline Device limited_device(std::size_t bytes) {
     const char* selector = std::getenv("TRIAD_TEST_DEVICE");
     return Device::open({.selector = selector ? selector : "", .largest_allocation = bytes});
 }
+
+/// What the largest allocation of a device must be to render at all: the tables of albedos are one piece.
+inline constexpr std::size_t smallest_allocation = sizeof(float) * ALBEDO_FLOATS + 10'000;
 
 }  // namespace triad

@@ -193,10 +193,7 @@ TEST(Film, in_bands_has_the_bytes_of_one_in_one_piece) {
     RenderSettings settings = analytic::varied_settings();
     settings.width = 64, settings.height = 151;
     settings.bins_x = settings.bins_y = 3;
-    const char* selector = std::getenv("TRIAD_TEST_DEVICE");
-    // A film of 2.8 MB, in three pieces at least; the tables of albedos are the scene's largest piece.
-    Device small = Device::open(
-        {.selector = selector ? selector : "", .largest_allocation = sizeof(float) * ALBEDO_FLOATS + 10'000});
+    Device small = limited_device(smallest_allocation);  // for a film of 2.8 MB: three pieces at least
     const Film pieces = picture_case::render(small, scene, settings, {{0, 9}, {9, 18}}),
                whole = picture_case::render(test_device(), scene, settings, {{0, 9}, {9, 18}});
     expect_same_bytes(pieces, whole, "bands");

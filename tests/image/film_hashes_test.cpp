@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(DISABLED_All, FilmHashesOfOtherWays, testing::ValuesIn(
 /// The same film, in several pieces on a device that allocates little.
 Film film_in_bands(const FilmCase& c) {
     const RenderRequest options = scene_options(c.name, c.options);
-    Device small = limited_device(900'000);
+    Device small = limited_device(smallest_allocation);
     const Scene loaded = load_scene(options);
     Renderer renderer(small, loaded, settings_of(options, loaded));
     renderer.render_until({.samples = {0, 9}, .adaptive = c.name.ends_with("adaptive")},
@@ -145,7 +145,7 @@ TEST(FilmHashesInBands, are_those_of_films_in_one_piece) {
     for (const FilmCase& c : load_film_table().cases) {
         if (!c.name.starts_with("large_")) continue;
         const Film film = film_in_bands(c);
-        ASSERT_GT(film.sums.size() * sizeof film.sums[0], 2 * 900'000u)
+        ASSERT_GT(film.sums.size() * sizeof film.sums[0], 2 * smallest_allocation)
             << c.name << " fits in one or two bands";
         if (const std::string reason = other_driver(film); !reason.empty()) GTEST_SKIP() << reason;
         EXPECT_EQ(differences(hashes_of(film), c.expected), "") << c.name;

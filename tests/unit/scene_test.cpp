@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <random>
 
 #include "base/error.h"
 #include "scene/limits.h"
@@ -151,6 +152,32 @@ TEST(Scene, what_cannot_be_drawn_is_dropped_down_to_the_instance) {
     EXPECT_TRUE(scene.meshes[0].primitives.empty());
     EXPECT_TRUE(scene.instances.empty());
     EXPECT_TRUE(bounds_of(scene).empty());
+}
+
+TEST(Scene, bounds_are_those_of_all_points_of_all_instances) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    for (int run = 0; run < 200; ++run) {
+        Scene scene = small_scene();
+        std::vector<vec3>& positions = scene.meshes[0].primitives[0].positions;
+        positions.resize(30);
+        for (unsigned i = 1; i < 10; ++i)
+            scene.meshes[0].primitives[0].triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+        for (vec3& p : positions) p = {normal(random), normal(random), normal(random)};
+        scene.instances.resize(30, scene.instances[0]);
+        Bounds all;
+        for (MeshInstance& instance : scene.instances) {
+            if (run % 2)  // on one line, like trees in a row: boxes that touch the bounds
+                instance.to_world = glm::translate(dmat4(1), {normal(random), 0, 0});
+            else
+                for (int k = 0; k < 12; ++k) instance.to_world[k / 3][k % 3] = normal(random);
+            for (const uvec3& t : scene.meshes[0].primitives[0].triangles)
+                for (int k = 0; k < 3; ++k) all.add(transform_point(instance.to_world, positions[t[k]]));
+        }
+        const Bounds bounds = bounds_of(scene);
+        EXPECT_EQ(bounds.lo, all.lo);
+        EXPECT_EQ(bounds.hi, all.hi);
+    }
 }
 
 TEST(Scene, hash_tells_content_apart_and_names_do_not_matter) {
