@@ -1,8 +1,5 @@
 #include "scene/scene.h"
 
-#include <array>
-#include <limits>
-
 #include "base/hash.h"
 
 namespace triad {
@@ -101,66 +98,7 @@ void put(Hash& h, const Mesh& mesh) {
     }
 }
 
-/// What is drawn of a mesh; corners that triangles share come once for each.
-template <class Visit>
-void for_points(const Mesh& mesh, Visit visit) {
-    for (const Primitive& p : mesh.primitives) {
-        for (const uvec3& t : p.triangles)
-            for (int k = 0; k < 3; ++k) visit(p.positions[t[k]]);
-        for (const uvec2& s : p.strokes)
-            for (int k = 0; k < 2; ++k) visit(p.positions[s[k]]);
-    }
-}
-
-/// The box around a transformed box: holds every point of the box, transformed, rounding included, since
-/// each step of transform_point() is monotonic in every coordinate.
-Bounds transformed(const Bounds& box, const dmat4& m) {
-    Bounds all;
-    for (int corner = 0; corner < 8; ++corner)
-        all.add(transform_point(m, {(corner & 1 ? box.hi : box.lo).x, (corner & 2 ? box.hi : box.lo).y,
-                                    (corner & 4 ? box.hi : box.lo).z}));
-    return all;
-}
-
-bool is_within(const Bounds& inner, const Bounds& outer) {
-    return glm::all(glm::lessThanEqual(outer.lo, inner.lo)) &&
-           glm::all(glm::lessThanEqual(inner.hi, outer.hi));
-}
-
-/// The instance whose box reaches furthest in a direction.
-struct Furthest {
-    double reach = -std::numeric_limits<double>::infinity();
-    const MeshInstance* instance = nullptr;
-
-    void offer(double other, const MeshInstance& by) {
-        if (other > reach) reach = other, instance = &by;
-    }
-};
-
 }  // namespace
-
-Bounds bounds_of(const Scene& scene) {
-    std::vector<Bounds> boxes(scene.meshes.size());
-    for (std::size_t m = 0; m < boxes.size(); ++m)
-        for_points(scene.meshes[m], [&](const vec3& p) { boxes[m].add(p); });
-    // Those that reach furthest come first: most others then lie within by their boxes alone.
-    std::array<Furthest, 6> furthest;
-    for (const MeshInstance& instance : scene.instances) {
-        const Bounds box = transformed(boxes[instance.mesh], instance.to_world);
-        for (int axis = 0; axis < 3; ++axis)
-            furthest[axis].offer(box.hi[axis], instance), furthest[axis + 3].offer(-box.lo[axis], instance);
-    }
-    Bounds bounds;
-    const auto add = [&](const MeshInstance& instance) {
-        if (is_within(transformed(boxes[instance.mesh], instance.to_world), bounds)) return;
-        for_points(scene.meshes[instance.mesh],
-                   [&](const vec3& p) { bounds.add(transform_point(instance.to_world, p)); });
-    };
-    for (const Furthest& f : furthest)
-        if (f.instance) add(*f.instance);
-    for (const MeshInstance& instance : scene.instances) add(instance);
-    return bounds;
-}
 
 std::uint64_t bytes_of(const Primitive& p) {
     return sizeof(vec3) * (p.positions.size() + p.normals.size()) +
