@@ -1,7 +1,9 @@
 /// The bounds of all that is drawn, of a million instances, too.
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "scene/scene.h"
 
