@@ -65,8 +65,8 @@ struct WhiteLobe {
     Case (*at)(float x, float y);
 };
 Case body(float ior, float inside) { return {.ior = ior, .transmission = 1, .solid = 1, .inside = inside}; }
-Case filmed(Case c, float x, float y) {
-    c.film = 1, c.film_ior = 1.1f + 2 * x, c.film_thickness = 1000 * y;
+Case filmed(Case c, float ior, float y) {
+    c.film = 1, c.film_ior = ior, c.film_thickness = 1000 * y;
     return c;
 }
 const WhiteLobe white_lobes[] = {
@@ -97,12 +97,21 @@ const WhiteLobe white_lobes[] = {
      [](float x, float y) {
          return Case{.metallic = 1, .coat = 1, .coat_roughness = x, .sheen = 1, .sheen_roughness = y};
      }},
-    {"film on a dielectric on Lambert", 0.985, 1.005, [](float x, float y) { return filmed({}, x, y); }},
-    {"film on metal", 0.997, 1.001, [](float x, float y) { return filmed({.metallic = 1}, x, y); }},
+    {"film on a dielectric on Lambert", 0.985, 1.005,
+     [](float x, float y) { return filmed({}, 1.1f + 2 * x, y); }},
+    {"film on metal", 0.997, 1.001,
+     [](float x, float y) { return filmed({.metallic = 1}, 1.1f + 2 * x, y); }},
     {"film on a body from outside", 0.985, 1.008,
-     [](float x, float y) { return filmed(body(1.5f, 0), x, y); }},
+     [](float x, float y) { return filmed(body(1.5f, 0), 1.1f + 2 * x, y); }},
     {"film on a body from inside", 0.985, 1.008,
-     [](float x, float y) { return filmed(body(1.5f, 1), x, y); }},
+     [](float x, float y) { return filmed(body(1.5f, 1), 1.1f + 2 * x, y); }},
+    {"film of low index on a dielectric on Lambert", 0.985, 1.005,
+     [](float x, float y) { return filmed({}, 1 + 0.1f * x, y); }},
+    // Below a film metal has a real index, whose parallel part dips near grazing angles (Brewster).
+    {"film of low index on metal", 0.97, 1.001,
+     [](float x, float y) { return filmed({.metallic = 1}, 1 + 0.1f * x, y); }},
+    {"film of low index on a body", 0.965, 1.008,
+     [](float x, float y) { return filmed(body(1.5f, float(y < 0.5f)), 1 + 0.1f * x, y); }},
     {"diffuse transmission", 0.996, 1.003,
      [](float x, float y) { return Case{.ior = 1 + 2 * x, .through = y}; }},
 };

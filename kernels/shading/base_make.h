@@ -8,7 +8,7 @@
 #define FILM_NORMALS 24u
 #define FILM_BODY_NORMALS 64u
 /* Their mean m is too low by less than this times m (1 - m): lost rather than gained. */
-#define FILM_MARGIN 0.025f
+#define FILM_MARGIN 0.035f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
  * root, for the few that lean far reflect most. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
@@ -56,7 +56,9 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
         rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
         sum = colour_fma_scale(weight * more, rise, sum);
     }
-    return sum;
+    /* what a film of low index reflects rises too steeply along the surface for so few normals */
+    const float lost = b->film_input.ior < 1.1f ? 0.012f : 0.0f;
+    return colour_add(sum, colour_splat(lost));
 }
 #endif
 
