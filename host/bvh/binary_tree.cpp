@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint32_t leaf_size = 4;
 constexpr std::size_t parallel_size = 1u << 15;  ///< ranges above it are folded on all cores
-constexpr std::size_t task_size = 1u << 12;      ///< ranges below it become one task
+constexpr std::size_t task_size = 1u << 12;      ///< ranges below it become one task,
+constexpr std::size_t most_tasks = 64;           ///< or below one of so many parts of the whole
 
 /// Levels of inner nodes that a balanced tree over `count` references needs.
 unsigned balanced_height(std::size_t count) { return count <= 1 ? 0 : unsigned(std::bit_width(count - 1)); }
@@ -24,13 +25,15 @@ template <class T, class Body>
 T fold(std::span<const Reference> range, const Body& body) {
     T result;
     if (range.size() < parallel_size) {
-        for (const Reference& r : range) body(result, r);
+        for (const Reference& r : range) body(result, WideReference(r));
         return result;
     }
     constexpr std::size_t grain = parallel_size / 4;
     std::vector<T> parts((range.size() + grain - 1) / grain);
     parallel_for(range.size(), grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) body(parts[begin / grain], range[i]);
+        T part;
+        for (std::size_t i = begin; i < end; ++i) body(part, WideReference(range[i]));
+        parts[begin / grain] = part;
     });
     for (const T& part : parts) result.add(part);
     return result;
@@ -47,6 +50,14 @@ Corners corners_of(const BvhTriangle& t) {
     return corners;
 }
 
+/// True where no two boxes are equal: no triangles are, then.
+bool all_differ(std::span<const Reference> references) {
+    for (std::size_t i = 0; i < references.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (references[i].box == references[j].box) return false;
+    return true;
+}
+
 class Builder {
   public:
     Builder(std::span<const BvhTriangle> triangles, std::vector<Reference>& references)
@@ -61,11 +72,11 @@ class Builder {
     struct Range {
         std::uint32_t begin, end;
         unsigned levels;
+        RangeBounds bounds;
         std::uint32_t size() const { return end - begin; }
     };
     /// What became of a range: a leaf, or two ranges.
     struct Division {
-        Box box;
         bool leaf;
         Range left, right;  ///< left is the range of a leaf
     };
@@ -75,7 +86,10 @@ class Builder {
         std::uint32_t left, right, task;
     };
 
+    std::span<const Reference> references(Range range) const;
+    RangeBounds bounds_of(Range range) const;
     Division divide(Range range) const;
+    Division partition(Range range, const Binning& binning, Split split) const;
     bool is_leaf(Range range) const;
     Range without_duplicates(Range range) const;
     void build_range(Range range, std::vector<BinaryNode>& nodes) const;
@@ -101,6 +115,7 @@ bool Builder::is_leaf(Range range) const {
 /// each.
 Builder::Range Builder::without_duplicates(Range range) const {
     const auto first = references_.begin() + range.begin, last = references_.begin() + range.end;
+    if (range.size() <= leaf_size && all_differ(references(range))) return range;
     std::sort(first, last, [&](const Reference& a, const Reference& b) {
         if (!is_triangle(a) || !is_triangle(b)) return a.item < b.item;
         const Corners p = corners_of(triangles_[a.item]), q = corners_of(triangles_[b.item]);
@@ -114,56 +129,70 @@ Builder::Range Builder::without_duplicates(Range range) const {
     return range;
 }
 
-Builder::Division Builder::divide(Range range) const {
-    const auto references = [&] { return std::span(references_).subspan(range.begin, range.size()); };
-    const RangeBounds bounds =
-        fold<RangeBounds>(references(), [](RangeBounds& result, const Reference& r) { result.add(r); });
-    if (is_leaf(range)) return {bounds.box, true, without_duplicates(range), {}};
+std::span<const Reference> Builder::references(Range range) const {
+    return std::span(references_).subspan(range.begin, range.size());
+}
 
-    const auto parts = [&](std::uint32_t middle) {
-        return Division{bounds.box,
-                        false,
-                        {range.begin, middle, range.levels - 1},
-                        {middle, range.end, range.levels - 1}};
-    };
-    if (range.levels > balanced_height(range.size())) {
-        const Binning binning(bounds.centres);
-        const Split split = best_split(fold<Bins>(references(),
-                                                  [&](Bins& bins, const Reference& r) {
-                                                      for (int a = 0; a < 3; ++a) {
-                                                          Bin& bin = bins.bin[a][binning(r, a)];
-                                                          bin.box.add(r.box);
-                                                          ++bin.count;
-                                                      }
-                                                  }),
-                                       unit_);
-        if (split.cost < std::numeric_limits<float>::infinity()) {
-            const auto middle =
-                std::partition(references_.begin() + range.begin, references_.begin() + range.end,
-                               [&](const Reference& r) { return binning(r, split.axis) < split.bin; });
-            return parts(std::uint32_t(middle - references_.begin()));
+RangeBounds Builder::bounds_of(Range range) const {
+    return fold<RangeBounds>(references(range),
+                             [](RangeBounds& result, const WideReference& r) { result.add(r); });
+}
+
+/// Moves those to the front of the range that `split` puts left.
+Builder::Division Builder::partition(Range range, const Binning& binning, Split split) const {
+    Reference* const all = references_.data();
+    std::uint32_t left = range.begin, right = range.end;
+    RangeBounds below, above;
+    while (true) {
+        for (; left < right; ++left) {
+            const WideReference r(all[left]);
+            if (binning(r)[split.axis] >= split.bin) break;
+            below.add(r);
         }
+        for (; left < right; --right) {
+            const WideReference r(all[right - 1]);
+            if (binning(r)[split.axis] < split.bin) break;
+            above.add(r);
+        }
+        if (left == right) break;
+        std::swap(all[left], all[right - 1]);
+    }
+    return {false, {range.begin, left, range.levels - 1, below}, {left, range.end, range.levels - 1, above}};
+}
+
+Builder::Division Builder::divide(Range range) const {
+    if (is_leaf(range)) return {true, without_duplicates(range), {}};
+    if (range.levels > balanced_height(range.size())) {
+        const Binning binning(range.bounds.centres, range.size());
+        const Split split = best_split(
+            fold<Bins>(references(range), [&](Bins& bins, const WideReference& r) { bins.add(binning, r); }),
+            binning.count, unit_);
+        if (split.cost < std::numeric_limits<float>::infinity()) return partition(range, binning, split);
     }
     // One centre for all, or no levels left to choose: halves. Equal triangles have had equal centres and so
     // are together up to here; they must be thrown out before halving could part them.
     range = without_duplicates(range);
-    if (is_leaf(range)) return {bounds.box, true, range, {}};
+    if (is_leaf(range)) return {true, range, {}};
     int axis = 0;
-    const auto size = [&](int a) { return bounds.centres.hi[a] - bounds.centres.lo[a]; };
+    const Float4 size = range.bounds.centres.hi - range.bounds.centres.lo;
     for (int a = 1; a < 3; ++a)
-        if (size(a) > size(axis)) axis = a;
+        if (size[a] > size[axis]) axis = a;
     const std::uint32_t middle = range.begin + range.size() / 2;
     std::stable_sort(references_.begin() + range.begin, references_.begin() + range.end,
                      [&](const Reference& a, const Reference& b) {
-                         return doubled_centre(a, axis) < doubled_centre(b, axis);
+                         return WideReference(a).doubled_centre()[axis] <
+                                WideReference(b).doubled_centre()[axis];
                      });
-    return parts(middle);
+    Division halves{
+        false, {range.begin, middle, range.levels - 1, {}}, {middle, range.end, range.levels - 1, {}}};
+    for (Range* half : {&halves.left, &halves.right}) half->bounds = bounds_of(*half);
+    return halves;
 }
 
 void Builder::build_range(Range range, std::vector<BinaryNode>& nodes) const {
     const Division division = divide(range);
     const std::size_t node = nodes.size();
-    nodes.push_back({division.box, division.left.begin, division.leaf ? division.left.size() : 0});
+    nodes.push_back({range.bounds.box.box(), division.left.begin, division.leaf ? division.left.size() : 0});
     if (division.leaf) return;
     build_range(division.left, nodes);
     nodes[node].right_or_first = std::uint32_t(nodes.size());
@@ -197,16 +226,17 @@ std::vector<BinaryNode> Builder::build(unsigned max_height) {
     // The top, range by range, each on all cores, down to ranges that are worth a task.
     std::vector<TopNode> top{{}};
     std::vector<std::pair<Range, std::uint32_t>> open{
-        {{0, count, std::max(max_height, balanced_height(count))}, 0}};
+        {{0, count, std::max(max_height, balanced_height(count)), {}}, 0}};
+    open[0].first.bounds = bounds_of(open[0].first);
     std::vector<Range> tasks;
     while (!open.empty()) {
         const auto [range, node] = open.back();
         open.pop_back();
-        if (range.size() > task_size) {
+        if (range.size() > std::max<std::size_t>(task_size, count / most_tasks)) {
             const Division division = divide(range);
             if (!division.leaf) {
                 const auto child = std::uint32_t(top.size());
-                top[node] = {division.box, child, child + 1, 0};
+                top[node] = {range.bounds.box.box(), child, child + 1, 0};
                 top.resize(top.size() + 2);
                 open.push_back({division.left, child});
                 open.push_back({division.right, child + 1});

@@ -22,6 +22,7 @@ struct Box {
             hi[a] = b.hi[a] > hi[a] ? b.hi[a] : hi[a];
         }
     }
+    bool operator==(const Box&) const = default;
     /// Half the surface area; 0 when empty. Infinite where float cannot square the sides.
     float half_area() const {
         const float x = hi[0] - lo[0], y = hi[1] - lo[1], z = hi[2] - lo[2];

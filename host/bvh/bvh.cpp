@@ -64,18 +64,30 @@ class LeafWriter {
     /// dev::Bvh8Node::child of every leaf, by its place among the tree's nodes.
     std::vector<std::uint32_t> write() {
         std::vector<std::uint32_t> words(tree_.nodes.size());
-        reserve_more(pool_.blocks, std::size_t(std::count_if(tree_.nodes.begin(), tree_.nodes.end(),
-                                                             [](const BinaryNode& n) { return n.count; })));
+        std::size_t blocks = pool_.blocks.size();
         for (std::size_t i = 0; i < words.size(); ++i)
-            if (tree_.nodes[i].count) words[i] = write(tree_.nodes[i]);
+            if (const BinaryNode& node = tree_.nodes[i]; node.count)
+                words[i] = is_instance(node) ? instance_word(node) : std::uint32_t(blocks++);
+        reserve_more(pool_.blocks, blocks - pool_.blocks.size());
+        pool_.blocks.resize(blocks);
+        parallel_for(words.size(), 1u << 14, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (const BinaryNode& node = tree_.nodes[i]; node.count && !is_instance(node))
+                    words[i] |= write(node, pool_.blocks[words[i]]);
+        });
         return words;
     }
 
   private:
-    std::uint32_t write(const BinaryNode& leaf) {
+    bool is_instance(const BinaryNode& leaf) const {
+        return items_[leaf.right_or_first] >= triangles_.size();
+    }
+    std::uint32_t instance_word(const BinaryNode& leaf) const {
+        return BVH_INSTANCE | instances_[items_[leaf.right_or_first] - triangles_.size()];
+    }
+    /// Returns the bits that stand beside the block's index.
+    std::uint32_t write(const BinaryNode& leaf, dev::TriangleBlock& block) const {
         const std::uint32_t* items = items_.data() + leaf.right_or_first;
-        if (items[0] >= triangles_.size()) return BVH_INSTANCE | instances_[items[0] - triangles_.size()];
-        dev::TriangleBlock block;
         bool opaque = true;
         for (std::uint32_t lane = 0; lane < 4; ++lane) {
             const BvhTriangle& t = triangles_[items[std::min(lane, leaf.count - 1)]];
@@ -85,8 +97,7 @@ class LeafWriter {
             block.geometry[lane] = t.geometry;
             opaque = opaque && t.opaque;
         }
-        pool_.blocks.push_back(block);
-        return BVH_LEAF | (opaque ? 0 : BVH_ALPHA) | std::uint32_t(pool_.blocks.size() - 1);
+        return BVH_LEAF | (opaque ? 0 : BVH_ALPHA);
     }
 
     const BinaryTree& tree_;
