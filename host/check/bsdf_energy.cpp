@@ -1,4 +1,5 @@
 // The glTF material gives back all light and no more.
+#include <cmath>
 #include <random>
 
 #include "check/bsdf_case.h"
@@ -69,6 +70,8 @@ Case filmed(Case c, float ior, float y) {
     c.film = 1, c.film_ior = ior, c.film_thickness = 1000 * y;
     return c;
 }
+/// A third number out of one of two.
+float another(float x) { return 64 * x - std::floor(64 * x); }
 const WhiteLobe white_lobes[] = {
     {"metal", 0.998, 1.001, [](float, float) { return Case{.metallic = 1}; }},
     {"dielectric on Lambert", 0.997, 1.0015, [](float x, float) { return Case{.ior = 1 + 2 * x}; }},
@@ -101,17 +104,21 @@ const WhiteLobe white_lobes[] = {
      [](float x, float y) { return filmed({}, 1.1f + 2 * x, y); }},
     {"film on metal", 0.997, 1.001,
      [](float x, float y) { return filmed({.metallic = 1}, 1.1f + 2 * x, y); }},
-    {"film on a body from outside", 0.985, 1.008,
-     [](float x, float y) { return filmed(body(1.5f, 0), 1.1f + 2 * x, y); }},
-    {"film on a body from inside", 0.985, 1.008,
+    {"film on a body from outside", 0.996, 1.0015,
+     [](float x, float y) { return filmed(body(1.1f + 2 * another(y), 0), 1.1f + 2 * x, y); }},
+    {"film on a body from inside", 0.985, 1.0015,
      [](float x, float y) { return filmed(body(1.5f, 1), 1.1f + 2 * x, y); }},
+    {"film on a body of any index from inside", 0.97, 1.0015,
+     [](float x, float y) { return filmed(body(1.1f + 2 * another(y), 1), 1.1f + 2 * x, y); }},
     {"film of low index on a dielectric on Lambert", 0.985, 1.005,
      [](float x, float y) { return filmed({}, 1 + 0.1f * x, y); }},
     // Below a film metal has a real index, whose parallel part dips near grazing angles (Brewster).
     {"film of low index on metal", 0.97, 1.001,
      [](float x, float y) { return filmed({.metallic = 1}, 1 + 0.1f * x, y); }},
-    {"film of low index on a body", 0.965, 1.008,
-     [](float x, float y) { return filmed(body(1.5f, float(y < 0.5f)), 1 + 0.1f * x, y); }},
+    {"film of low index on a body", 0.965, 1.0015,
+     [](float x, float y) {
+         return filmed(body(1.1f + 2 * another(y), float(another(x) < 0.5f)), 1 + 0.1f * x, y);
+     }},
     {"diffuse transmission", 0.997, 1.0015,
      [](float x, float y) { return Case{.ior = 1 + 2 * x, .through = y}; }},
 };

@@ -56,8 +56,9 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
         rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
         sum = colour_fma_scale(weight * more, rise, sum);
     }
-    /* what a film of low index reflects rises too steeply along the surface for so few normals */
-    const float lost = b->film_input.ior < 1.1f ? 0.012f : 0.0f;
+    /* Where total reflection begins, and along the surface under a film of low index, the film's reflectance
+     * is too steep for so few normals: lost rather than gained. */
+    const float lost = b->eta >= 1.0f ? 0.0f : b->film_input.ior < 1.1f ? 0.012f : 0.005f;
     return colour_add(sum, colour_splat(lost));
 }
 #endif
