@@ -7,8 +7,12 @@
 #if BSDF_FILM
 #define FILM_NORMALS 24u
 #define FILM_BODY_NORMALS 64u
-/* Their mean m is too low by less than this times m (1 - m): lost rather than gained. */
-#define FILM_MARGIN 0.035f
+/* Their mean m is too low by less than the lesser of these, the second for each unit of roughness, times
+ * m (1 - m): lost rather than gained. */
+#define FILM_MARGIN 0.03f
+#define FILM_ROUGH_MARGIN 0.08f
+/* What a Lambert lobe below a film on a rough base loses beyond that, for the few places where m is lower. */
+#define FILM_LOSS 0.003f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
  * root, for the few that lean far reflect most. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
@@ -36,7 +40,8 @@ TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
     }
     if (weights <= 0.0f) return base_film(b, wo.z);
     const Colour mean = colour_scale(sum, 1.0f / weights);
-    return colour_fma_scale(FILM_MARGIN, colour_mul(mean, colour_complement(mean)), mean);
+    const float margin = math_min(FILM_MARGIN, FILM_ROUGH_MARGIN * math_sqrt(b->alpha));
+    return colour_fma_scale(margin, colour_mul(mean, colour_complement(mean)), mean);
 }
 #if BSDF_TRANSMISSION
 /* What a film of share 1 adds to the albedo of a rough body: it reflects more than the interface that the
@@ -74,7 +79,8 @@ TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean
     b->film_share = in->film;
     b->specular0 = colour_scale(b->specular0, 1.0f - in->film);
     b->specular1 = colour_scale(b->specular1, 1.0f - in->film);
-    *coat_albedo = colour_fma_scale(in->specular, film_albedo, colour_scale(*coat_albedo, 1.0f - in->film));
+    const Colour hidden = colour_add(film_albedo, colour_splat(b->smooth ? 0.0f : in->film * FILM_LOSS));
+    *coat_albedo = colour_fma_scale(in->specular, hidden, colour_scale(*coat_albedo, 1.0f - in->film));
     return colour_average(film_albedo) * weight;
 }
 #endif
