@@ -88,7 +88,7 @@ const WhiteLobe white_lobes[] = {
          c.specular = 0;
          return c;
      }},
-    {"stretched metal", 0.993, 1.0015,
+    {"stretched metal", 0.993, 1.002,
      [](float x, float y) { return Case{.metallic = 1, .anisotropy = x, .azimuth = 0.25f * y}; }},
     {"sheen on Lambert", 0.993, 1.0015,
      [](float x, float) { return Case{.specular = 0, .sheen = 1, .sheen_roughness = x}; }},
