@@ -11,8 +11,14 @@
  * m (1 - m): lost rather than gained. */
 #define FILM_MARGIN 0.03f
 #define FILM_ROUGH_MARGIN 0.08f
-/* What a Lambert lobe below a film on a rough base loses beyond that, for the few places where m is lower. */
-#define FILM_LOSS 0.003f
+/* What is lost beyond that, for the few places where m is lower: by a Lambert lobe below a film on a rough
+ * base, and by a rough body from inside. A film of low index reflects too steeply along the surface for so
+ * few normals, and so does any where total reflection begins. */
+#define FILM_LOW_INDEX 1.1f
+#define FILM_LOSS 0.002f
+#define FILM_LOW_LOSS 0.008f
+#define FILM_BODY_LOSS 0.02f
+#define FILM_LOW_BODY_LOSS 0.06f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
  * root, for the few that lean far reflect most. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
@@ -61,10 +67,12 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
         rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
         sum = colour_fma_scale(weight * more, rise, sum);
     }
-    /* Where total reflection begins, and along the surface under a film of low index, the film's reflectance
-     * is too steep for so few normals: lost rather than gained. */
-    const float lost = b->eta >= 1.0f ? 0.0f : b->film_input.ior < 1.1f ? 0.012f : 0.005f;
-    return colour_add(sum, colour_splat(lost));
+    return sum;
+}
+/* What the albedo is raised by for what the normals of base_film_rise miss. */
+TRIAD_FUNCTION float base_film_loss(const BaseBsdf* b) {
+    if (b->eta >= 1.0f) return 0.0f;
+    return b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_BODY_LOSS : FILM_BODY_LOSS;
 }
 #endif
 
@@ -79,7 +87,8 @@ TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean
     b->film_share = in->film;
     b->specular0 = colour_scale(b->specular0, 1.0f - in->film);
     b->specular1 = colour_scale(b->specular1, 1.0f - in->film);
-    const Colour hidden = colour_add(film_albedo, colour_splat(b->smooth ? 0.0f : in->film * FILM_LOSS));
+    const float lost = b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_LOSS : FILM_LOSS;
+    const Colour hidden = colour_add(film_albedo, colour_splat(b->smooth ? 0.0f : in->film * lost));
     *coat_albedo = colour_fma_scale(in->specular, hidden, colour_scale(*coat_albedo, 1.0f - in->film));
     return colour_average(film_albedo) * weight;
 }
@@ -135,7 +144,10 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
                 colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
                 colour_scale(lost, glass.y));
 #if BSDF_FILM
-            if (b->film_share > 0.0f) kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
+            if (b->film_share > 0.0f) {
+                kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
+                kept = colour_scale(kept, fma(b->film_share, base_film_loss(b), 1.0f));
+            }
 #endif
         }
         b->transmitter = colour_div(colour_splat(transmitter), kept);
