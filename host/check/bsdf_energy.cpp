@@ -88,7 +88,7 @@ const WhiteLobe white_lobes[] = {
          c.specular = 0;
          return c;
      }},
-    {"stretched metal", 0.993, 1.002,
+    {"stretched metal", 0.993, 1.0025,
      [](float x, float y) { return Case{.metallic = 1, .anisotropy = x, .azimuth = 0.25f * y}; }},
     {"sheen on Lambert", 0.993, 1.0015,
      [](float x, float) { return Case{.specular = 0, .sheen = 1, .sheen_roughness = x}; }},
@@ -100,20 +100,20 @@ const WhiteLobe white_lobes[] = {
      [](float x, float y) {
          return Case{.metallic = 1, .coat = 1, .coat_roughness = x, .sheen = 1, .sheen_roughness = y};
      }},
-    {"film on a dielectric on Lambert", 0.985, 1.002,
+    {"film on a dielectric on Lambert", 0.985, 1.003,
      [](float x, float y) { return filmed({}, 1.1f + 2 * x, y); }},
     {"film on metal", 0.9975, 1.001,
      [](float x, float y) { return filmed({.metallic = 1}, 1.1f + 2 * x, y); }},
     {"film on a body from outside", 0.996, 1.002,
      [](float x, float y) { return filmed(body(1.1f + 2 * another(y), 0), 1.1f + 2 * x, y); }},
-    {"film on a body from inside", 0.972, 1.0015,
+    {"film on a body from inside", 0.985, 1.0015,
      [](float x, float y) { return filmed(body(1.1f + 2 * another(y), 1), 1.1f + 2 * x, y); }},
     {"film of low index on a dielectric on Lambert", 0.972, 1.0015,
      [](float x, float y) { return filmed({}, 1 + 0.1f * x, y); }},
     // Below a film metal has a real index, whose parallel part dips near grazing angles (Brewster).
     {"film of low index on metal", 0.97, 1.001,
      [](float x, float y) { return filmed({.metallic = 1}, 1 + 0.1f * x, y); }},
-    {"film of low index on a body", 0.93, 1.002,
+    {"film of low index on a body", 0.965, 1.002,
      [](float x, float y) {
          return filmed(body(1.1f + 2 * another(y), float(another(x) < 0.5f)), 1 + 0.1f * x, y);
      }},
@@ -139,7 +139,7 @@ void judge(Check& check, const WhiteLobe& lobe, std::mt19937& generator) {
     };
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<Case> cases;
-    for (int i = 0; i < int(check.count(1000, 100)); ++i) {
+    for (int i = 0; i < int(check.count(400, 100)); ++i) {
         const float x = unit(generator), y = unit(generator);
         Case c = lobe.at(x, y);
         c.roughness = i % 2 ? unit(generator) : std::pow(10.0f, -1.5f * unit(generator));

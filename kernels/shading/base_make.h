@@ -6,7 +6,7 @@
 
 #if BSDF_FILM
 #define FILM_NORMALS 24u
-#define FILM_BODY_NORMALS 64u
+#define FILM_BODY_NORMALS 192u
 /* Their mean m is too low by less than the lesser of these, the second for each unit of roughness, times
  * m (1 - m): lost rather than gained. */
 #define FILM_MARGIN 0.03f
@@ -17,8 +17,8 @@
 #define FILM_LOW_INDEX 1.1f
 #define FILM_LOSS 0.002f
 #define FILM_LOW_LOSS 0.008f
-#define FILM_BODY_LOSS 0.02f
-#define FILM_LOW_BODY_LOSS 0.06f
+#define FILM_BODY_LOSS 0.008f
+#define FILM_LOW_BODY_LOSS 0.017f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
  * root, for the few that lean far reflect most. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
