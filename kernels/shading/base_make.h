@@ -6,7 +6,7 @@
 
 #if BSDF_FILM
 #define FILM_NORMALS 24u
-#define FILM_BODY_NORMALS 192u
+#define FILM_BODY_NORMALS 64u
 /* Their mean m is too low by less than the lesser of these, the second for each unit of roughness, times
  * m (1 - m): lost rather than gained. */
 #define FILM_MARGIN 0.03f
@@ -17,8 +17,8 @@
 #define FILM_LOW_INDEX 1.1f
 #define FILM_LOSS 0.002f
 #define FILM_LOW_LOSS 0.008f
-#define FILM_BODY_LOSS 0.008f
-#define FILM_LOW_BODY_LOSS 0.017f
+#define FILM_BODY_LOSS 0.005f
+#define FILM_LOW_BODY_LOSS 0.012f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
  * root, for the few that lean far reflect most. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
@@ -67,12 +67,8 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
         rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
         sum = colour_fma_scale(weight * more, rise, sum);
     }
-    return sum;
-}
-/* What the albedo is raised by for what the normals of base_film_rise miss. */
-TRIAD_FUNCTION float base_film_loss(const BaseBsdf* b) {
-    if (b->eta >= 1.0f) return 0.0f;
-    return b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_BODY_LOSS : FILM_BODY_LOSS;
+    const float lost = b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_BODY_LOSS : FILM_BODY_LOSS;
+    return colour_add(sum, colour_splat(b->eta < 1.0f ? lost : 0.0f));
 }
 #endif
 
@@ -144,10 +140,7 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
                 colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
                 colour_scale(lost, glass.y));
 #if BSDF_FILM
-            if (b->film_share > 0.0f) {
-                kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
-                kept = colour_scale(kept, fma(b->film_share, base_film_loss(b), 1.0f));
-            }
+            if (b->film_share > 0.0f) kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
 #endif
         }
         b->transmitter = colour_div(colour_splat(transmitter), kept);
