@@ -18,7 +18,7 @@
 #define FILM_LOSS 0.002f
 #define FILM_LOW_LOSS 0.008f
 #define FILM_BODY_LOSS 0.005f
-#define FILM_LOW_BODY_LOSS 0.012f
+#define FILM_LOW_BODY_LOSS 0.016f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
  * root, for the few that lean far reflect most. */
 TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
@@ -67,8 +67,12 @@ TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
         rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
         sum = colour_fma_scale(weight * more, rise, sum);
     }
-    const float lost = b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_BODY_LOSS : FILM_BODY_LOSS;
-    return colour_add(sum, colour_splat(b->eta < 1.0f ? lost : 0.0f));
+    return sum;
+}
+/* The share that the albedo of a body is raised by, for what the normals of base_film_rise miss. */
+TRIAD_FUNCTION float base_film_loss(const BaseBsdf* b) {
+    if (b->eta >= 1.0f) return 0.0f;
+    return b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_BODY_LOSS : FILM_BODY_LOSS;
 }
 #endif
 
@@ -140,7 +144,10 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
                 colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
                 colour_scale(lost, glass.y));
 #if BSDF_FILM
-            if (b->film_share > 0.0f) kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
+            if (b->film_share > 0.0f) {
+                kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
+                kept = colour_scale(kept, fma(b->film_share, base_film_loss(b), 1.0f));
+            }
 #endif
         }
         b->transmitter = colour_div(colour_splat(transmitter), kept);
