@@ -12,11 +12,10 @@
 #define FILM_MARGIN 0.03f
 #define FILM_ROUGH_MARGIN 0.08f
 /* What is lost beyond that, for the few places where m is lower: by a Lambert lobe below a film on a rough
- * base, and by a rough body from inside. A film of low index reflects too steeply along the surface for so
- * few normals, and so does any where total reflection begins. */
-#define FILM_LOW_INDEX 1.1f
+ * base, and by a rough body from inside, where a film reflects too steeply for so few normals: where total
+ * reflection begins, and along the surface if its index is low. */
 #define FILM_LOSS 0.002f
-#define FILM_LOW_LOSS 0.008f
+#define FILM_LOW_INDEX 1.1f
 #define FILM_BODY_LOSS 0.005f
 #define FILM_LOW_BODY_LOSS 0.016f
 /* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
@@ -87,8 +86,7 @@ TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean
     b->film_share = in->film;
     b->specular0 = colour_scale(b->specular0, 1.0f - in->film);
     b->specular1 = colour_scale(b->specular1, 1.0f - in->film);
-    const float lost = b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_LOSS : FILM_LOSS;
-    const Colour hidden = colour_add(film_albedo, colour_splat(b->smooth ? 0.0f : in->film * lost));
+    const Colour hidden = colour_add(film_albedo, colour_splat(b->smooth ? 0.0f : in->film * FILM_LOSS));
     *coat_albedo = colour_fma_scale(in->specular, hidden, colour_scale(*coat_albedo, 1.0f - in->film));
     return colour_average(film_albedo) * weight;
 }
