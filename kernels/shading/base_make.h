@@ -75,13 +75,13 @@ TRIAD_FUNCTION float base_film_loss(const BaseBsdf* b) {
 }
 #endif
 
-/* The film's share of what the microfacets reflect, `mean` of it; `kept` is the albedo of the rough base with
- * Fresnel factor 1, coat_albedo of what covers the Lambert lobe. Returns the albedo of that share. */
-TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean, float opaque, float kept,
+/* The film's share of what the microfacets reflect, `mean` of it, in a lobe of this weight; `kept` is the
+ * albedo of the rough base with Fresnel factor 1, coat_albedo of what covers the Lambert lobe. Returns the
+ * albedo of that share. */
+TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean, float weight, float kept,
                                    Colour* coat_albedo) {
     Colour whole = colour_fma_scale((1.0f - kept) / kept, mean, colour_splat(1.0f));
     Colour film_albedo = colour_scale(colour_mul(whole, mean), in->film * kept);
-    float weight = fma(opaque, in->specular, in->metallic);
     b->film = colour_scale(whole, in->film * weight);
     b->film_share = in->film;
     b->specular0 = colour_scale(b->specular0, 1.0f - in->film);
@@ -239,7 +239,9 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     if (in->film > 0.0f && in->film_input.thickness > 0.0f) {
         b.film_input = in->film_input;
         b.film0 = colour_fma_scale(in->metallic, colour_sub(metal0, coat0), coat0);
-        p = base_add_film(&b, in, base_film_mean(&b, wo), opaque, albedo.x, &coat_albedo);
+        const float weight = fma(opaque, in->specular, in->metallic); /* 0 of a body that is nothing else */
+        const Colour mean = weight > 0.0f ? base_film_mean(&b, wo) : colour_splat(0.0f);
+        p = base_add_film(&b, in, mean, weight, albedo.x, &coat_albedo);
     }
 #endif
     base_lambert(&b, in, opaque * math_max(0.0f, 1.0f - colour_largest(coat_albedo)));
