@@ -144,18 +144,20 @@ void judge(Check& check, const WhiteLobe& lobe, std::mt19937& generator) {
         c.mu = i % 4 < 2 ? unit(generator) : std::pow(10.0f, -6 * unit(generator));
         cases.push_back(c);
     }
-    const auto results = furnace(check, cases, tiny ? 64 : 1 << 13);
-    std::vector<Case> doubted;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        expect_sound(check, results[i], cases[i]);
-        if (!tiny && excess(results[i]) > 0 && excess(results[i]) < 0.1)
-            doubted.push_back(cases[i]);
-        else
-            decide(cases[i], results[i]);
+    for (int bits : {13, 16, 21}) {
+        const bool last = tiny || bits == 21;
+        const auto results = furnace(check, cases, tiny ? 64 : 1 << bits);
+        std::vector<Case> doubted;
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            expect_sound(check, results[i], cases[i]);
+            if (!last && excess(results[i]) > 0 && excess(results[i]) < 0.1)
+                doubted.push_back(cases[i]);
+            else
+                decide(cases[i], results[i]);
+        }
+        if (doubted.empty()) return;
+        cases = doubted;
     }
-    if (doubted.empty()) return;
-    const auto again = furnace(check, doubted, 1 << 21);
-    for (std::size_t i = 0; i < doubted.size(); ++i) decide(doubted[i], again[i]);
 }
 
 void white_lobes_at_any_angle(Check& check) {

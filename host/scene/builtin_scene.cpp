@@ -1,6 +1,7 @@
 #include "scene/builtin_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -18,62 +19,82 @@ double random_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     return ((h >> 22) ^ h) / 4294967296.0;
 }
 
-std::uint8_t encode_srgb(double linear) {
-    const double v = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0, 1.0)));
+using Texel = std::array<std::uint8_t, 4>;
+
+Texel encode_srgb(const dvec3& linear) {
+    Texel texel{0, 0, 0, 255};
+    for (int c = 0; c < 3; ++c) {
+        const double v =
+            linear[c] <= 0.0031308 ? 12.92 * linear[c] : 1.055 * std::pow(linear[c], 1 / 2.4) - 0.055;
+        texel[c] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0, 1.0)));
+    }
+    return texel;
 }
 
-/// Chips of stone in plaster, tileable: a chip is what lies near enough to the middle of its Voronoi cell, in
-/// two sizes.
+/// Chips of stone: a chip is what lies near enough to the middle of its Voronoi cell. Tileable.
+class Chips {
+  public:
+    Chips(unsigned cells, double share, double reach, std::uint32_t salt) : cells_(cells) {
+        const dvec3 stones[] = {{0.36, 0.34, 0.33}, {0.80, 0.77, 0.72}, {0.14, 0.15, 0.17},
+                                {0.52, 0.30, 0.21}, {0.70, 0.54, 0.36}, {0.30, 0.36, 0.35}};
+        chips_.reserve((cells + 2) * (cells + 2));
+        for (unsigned y = 0; y < cells + 2; ++y)
+            for (unsigned x = 0; x < cells + 2; ++x) {
+                const unsigned id = (y + cells - 1) % cells * cells + (x + cells - 1) % cells;
+                const auto random = [&](unsigned which) { return random_of(id, which, salt); };
+                const auto kind = static_cast<std::size_t>(random(5) * std::size(stones));
+                chips_.push_back({dvec2(x, y) - 1.0 + (0.15 + 0.7 * dvec2(random(1), random(2))),
+                                  random(4) > share ? -1 : reach * (0.55 + 0.9 * random(3)),
+                                  encode_srgb(stones[kind] * (0.85 + 0.3 * random(6)))});
+            }
+    }
+    /// What lies at a point of [0, 1)^2, or null.
+    const Texel* at(const dvec2& point) const {
+        const dvec2 p = point * double(cells_);
+        const ivec2 cell(glm::floor(p));
+        double nearest = 81, second = 81;  // squares
+        const Chip* chip = nullptr;
+        for (int j = 0; j < 3; ++j)
+            for (int i = 0; i < 3; ++i) {
+                const Chip& one = chips_[std::size_t(cell.y + j) * (cells_ + 2) + std::size_t(cell.x + i)];
+                const dvec2 off = p - one.middle;
+                const double d = glm::dot(off, off);
+                if (d < nearest)
+                    second = nearest, nearest = d, chip = &one;
+                else
+                    second = std::min(second, d);
+            }
+        nearest = std::sqrt(nearest), second = std::sqrt(second);
+        return second - nearest < 0.16 || nearest > chip->reach ? nullptr : &chip->texel;
+    }
+
+  private:
+    struct Chip {
+        dvec2 middle;  // in cells
+        double reach;  // below 0: the cell is empty
+        Texel texel;
+    };
+    unsigned cells_;
+    std::vector<Chip> chips_;  // with a border of one cell, which repeats the other side
+};
+
+/// Chips of two sizes in plaster.
 Image terrazzo(unsigned side) {
-    const dvec3 plaster(0.60, 0.57, 0.53);
-    const dvec3 chips[] = {{0.36, 0.34, 0.33}, {0.80, 0.77, 0.72}, {0.14, 0.15, 0.17},
-                           {0.52, 0.30, 0.21}, {0.70, 0.54, 0.36}, {0.30, 0.36, 0.35}};
-    Image image{"terrazzo", side, side, 8, std::vector<std::uint8_t>(std::size_t(side) * side * 4, 255)};
-    struct Layer {
-        unsigned cells;
-        double share, reach;
-        std::uint32_t salt;
-        std::vector<dvec2> middles;  // of its cells, from their corners
-    };
-    Layer layers[] = {{34, 0.55, 0.30, 11, {}}, {12, 0.62, 0.33, 5, {}}};
-    for (Layer& layer : layers)
-        for (unsigned id = 0; id < layer.cells * layer.cells; ++id)
-            layer.middles.push_back(0.15 +
-                                    0.7 * dvec2(random_of(id, 1, layer.salt), random_of(id, 2, layer.salt)));
-    const auto colour_at = [&](unsigned x, unsigned y) {
-        dvec3 colour = plaster * (0.97 + 0.06 * random_of(x / 2, y / 2, 77));
-        for (const Layer& layer : layers) {
-            const dvec2 p = dvec2(x + 0.5, y + 0.5) * (double(layer.cells) / side);
-            const ivec2 cell(glm::floor(p));
-            double nearest = 81, second = 81;  // squares
-            unsigned who = 0;
-            for (int j = -1; j <= 1; ++j)
-                for (int i = -1; i <= 1; ++i) {
-                    const ivec2 c = cell + ivec2(i, j);
-                    const unsigned id =
-                        (c.y + layer.cells) % layer.cells * layer.cells + (c.x + layer.cells) % layer.cells;
-                    const dvec2 off = p - (dvec2(c) + layer.middles[id]);
-                    const double d = glm::dot(off, off);
-                    if (d < nearest)
-                        second = nearest, nearest = d, who = id;
-                    else
-                        second = std::min(second, d);
+    const Chips large(12, 0.62, 0.33, 5), small(34, 0.55, 0.30, 11);
+    Image image{"terrazzo", side, side, 8, std::vector<std::uint8_t>(std::size_t(side) * side * 4)};
+    parallel_for(side / 2, 8, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            for (unsigned i = 0; i < side / 2; ++i) {
+                const Texel plaster =
+                    encode_srgb(dvec3(0.60, 0.57, 0.53) * (0.97 + 0.06 * random_of(i, std::uint32_t(k), 77)));
+                for (unsigned part = 0; part < 4; ++part) {
+                    const std::size_t x = 2 * i + part % 2, y = 2 * k + part / 2;
+                    const dvec2 point = dvec2(x + 0.5, y + 0.5) / double(side);
+                    const Texel* texel = large.at(point);
+                    if (!texel) texel = small.at(point);
+                    if (!texel) texel = &plaster;
+                    std::copy(texel->begin(), texel->end(), image.texels.begin() + 4 * (y * side + x));
                 }
-            nearest = std::sqrt(nearest), second = std::sqrt(second);
-            const double size = layer.reach * (0.55 + 0.9 * random_of(who, 3, layer.salt));
-            if (random_of(who, 4, layer.salt) > layer.share || second - nearest < 0.16 || nearest > size)
-                continue;
-            const auto kind = static_cast<std::size_t>(random_of(who, 5, layer.salt) * std::size(chips));
-            colour = chips[kind] * (0.85 + 0.3 * random_of(who, 6, layer.salt));
-        }
-        return colour;
-    };
-    parallel_for(side, 16, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y)
-            for (unsigned x = 0; x < side; ++x) {
-                const dvec3 colour = colour_at(x, unsigned(y));
-                for (int c = 0; c < 3; ++c) image.texels[(y * side + x) * 4 + c] = encode_srgb(colour[c]);
             }
     });
     return image;
