@@ -46,6 +46,13 @@
 /* Compiled once: drivers that make several entry points of a kernel (PoCL makes two) would compile its body
  * for each. */
 #define TRIAD_FUNCTION_ONCE static __attribute__((noinline))
+/* All that a kernel does; where functions are copied, into the kernel: its arguments then lie in no memory of
+ * the item. */
+#if TRIAD_INLINED && !defined(TRIAD_CALLS)
+#define TRIAD_FUNCTION_WHOLE TRIAD_FUNCTION
+#else
+#define TRIAD_FUNCTION_WHOLE TRIAD_FUNCTION_ONCE
+#endif
 
 /* A loop of `length` rounds, at most a constant `most`: where items are the lanes it is no loop, for only the
  * innermost one is vectorised, and that is to be the one over items. */

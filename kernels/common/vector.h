@@ -96,6 +96,8 @@ TRIAD_FUNCTION void vec4_store(Vec4 v, global float* values, size_t index) {
 
 TRIAD_FUNCTION Vec3 vec4_xyz(Vec4 v) { return vec3_make(v.x, v.y, v.z); }
 TRIAD_FUNCTION Vec4 vec3_with(Vec3 v, float w) { return vec4_make(v.x, v.y, v.z, w); }
+/* Without its first component, and with w last. */
+TRIAD_FUNCTION Vec4 vec4_push(Vec4 v, float w) { return vec4_make(v.y, v.z, v.w, w); }
 
 /* ---- Component by component ---- */
 

@@ -24,17 +24,18 @@ TRIAD_FUNCTION VertexBsdf path_bsdf(const Scene* scene, PathState* path, Vertex*
 /* The value at each wavelength with that wavelength's index, and the densities of wi were each the first. */
 TRIAD_FUNCTION_ONCE Colour path_eval_each(const Scene* scene, Vec4 wavelengths, const Vertex* vertex, Vec3 wi,
                                           Vec4* densities) {
-    const float nanometres[4] = {wavelengths.x, wavelengths.y, wavelengths.z, wavelengths.w};
-    float value[4], density[4];
+    Vec4 waiting = wavelengths, value = vec4_splat(0.0f);
+    *densities = vec4_splat(0.0f);
     for (uint i = 0u; i < 4u; ++i) {
         const VertexBsdf v = vertex_bsdf(scene, &vertex->surface, vertex->wo, vertex->ng, vertex->back,
-                                         vertex->around.here, vertex->around.beyond, nanometres[i]);
-        density[i] = 0.0f;
-        const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density[i]);
-        value[i] = i == 0u ? f.x : i == 1u ? f.y : i == 2u ? f.z : f.w;
+                                         vertex->around.here, vertex->around.beyond, waiting.x);
+        float density = 0.0f;
+        const Colour f = bsdf_eval(&v.bsdf, v.wo, wi, &density);
+        waiting = vec4_push(waiting, 0.0f);
+        value = vec4_push(value, i == 0u ? f.x : i == 1u ? f.y : i == 2u ? f.z : f.w);
+        *densities = vec4_push(*densities, density);
     }
-    *densities = VEC4_OF(density);
-    return VEC4_OF(value);
+    return value;
 }
 #endif
 

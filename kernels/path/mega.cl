@@ -5,7 +5,7 @@
 #include "path/add.h"
 #include "path/mega.h"
 
-TRIAD_FUNCTION_ONCE void trace_pixel(SCENE_PARAMETERS PARAMETERS(TRACE_PATHS_LIST), size_t item) {
+TRIAD_FUNCTION_WHOLE void trace_pixel(SCENE_PARAMETERS PARAMETERS(TRACE_PATHS_LIST), size_t item) {
     if (item >= (size_t)work_count * FILM_TILE_PIXELS) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;

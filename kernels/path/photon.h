@@ -17,8 +17,6 @@ typedef struct PhotonState {
     PathState path; /* its throughput is of flux: radiance over what bodies scale it by */
     PhotonSource source;
     float length;     /* of the way, for the range of punctual lights */
-    Vec3 from;        /* where the edge starts, before any offset */
-    Vec3 filter;      /* what the photon adds to the film, of its power: that of its wavelength */
     Vec3 per_density; /* nm: of the wavelength; in gathering, the filter is the path's */
     uint ray_name;
     Photon kept; /* one of the places where it landed, all equally likely */
@@ -34,7 +32,6 @@ TRIAD_FUNCTION void photon_draw_wavelength(const Scene* scene, PhotonState* phot
                             sampler_2d(&photon->path.sampler, PATH_WAVELENGTH_SET).x, &carried);
     photon->path.colours.wavelength = wavelength;
     photon->per_density = vec3_splat(carried);
-    photon->filter = vec3_scale(spectrum_filter(scene->spectrum, wavelength), carried);
 #else
     (void)scene, (void)photon;
 #endif
@@ -53,16 +50,15 @@ TRIAD_FUNCTION PhotonState photon_start(const Scene* scene, global const PhotonF
     const Ray ray = photon.source.ray;
     photon.path = path_state(&sampler, ray, path_colour_white());
     photon.length = 0.0f;
-    photon.from = VEC3_OF(ray.origin);
     photon.ray_name = coverage_ray(&sampler, 0u);
     photon.kept.direction = 0u;
     photon.landings = 0u;
 #if TRIAD_DISPERSION
-    photon.filter = photon.per_density = vec3_splat(1.0f);
+    photon.per_density = vec3_splat(1.0f);
     /* light with a spectrum of its own has a wavelength from its start */
     if (frame->wavelength_from_camera || photon.source.spectrum != 0u) photon_draw_wavelength(scene, &photon);
 #else
-    photon.filter = photon.per_density = spectrum_colour_of_light(scene->spectrum, photon.source.spectrum);
+    photon.per_density = spectrum_colour_of_light(scene->spectrum, photon.source.spectrum);
 #endif
     return photon;
 }
@@ -80,8 +76,7 @@ TRIAD_FUNCTION void photon_disperse(const Scene* scene, PhotonState* photon, con
 
 /* 0: the surface gets none of it: it is unlit, or out of the light's range. */
 TRIAD_FUNCTION int photon_arrives(const Scene* scene, PhotonState* photon, const Vertex* vertex) {
-    photon->length += vec3_length(vec3_sub(vertex->surface.position, photon->from));
-    photon->from = vertex->surface.position;
+    photon->length += vertex->hit.t;
     return !(scene->materials[vertex->surface.material].flags & MATERIAL_UNLIT) &&
            !(photon->source.range > 0.0f && photon->length >= photon->source.range);
 }
@@ -93,6 +88,17 @@ TRIAD_FUNCTION Vec3 photon_power(const PhotonState* photon, float share) {
     return range > 0.0f ? vec3_scale(power, 1.0f - math_square(math_square(photon->length / range))) : power;
 }
 
+/* What it adds to the film, of its power. */
+TRIAD_FUNCTION Vec3 photon_filter(const Scene* scene, const PhotonState* photon) {
+#if TRIAD_DISPERSION
+    const float wavelength = path_wavelength(&photon->path.colours);
+    if (wavelength > 0.0f) return vec3_mul(spectrum_filter(scene->spectrum, wavelength), photon->per_density);
+#else
+    (void)scene;
+#endif
+    return photon->per_density;
+}
+
 /* The photon may be kept for the map as it landed here. */
 TRIAD_FUNCTION void photon_land(const Scene* scene, PhotonState* photon, const Vertex* vertex,
                                 const VertexBsdf* v, Vec3 power, const SamplerBlock* u) {
@@ -102,7 +108,7 @@ TRIAD_FUNCTION void photon_land(const Scene* scene, PhotonState* photon, const V
     ++photon->landings;
     if (!(random_float(u->set[3].x) * (float)photon->landings < 1.0f)) return;
     const int baked = scene->frame->wavelength_from_camera != 0u; /* as it was published: counts twice */
-    const Vec3 flux = vec3_mul(power, baked ? photon->filter : photon->per_density);
+    const Vec3 flux = vec3_mul(power, baked ? photon_filter(scene, photon) : photon->per_density);
     photon->kept =
         photon_make(vertex->surface.position, vec3_scale(flux, 1.0f / vec3_dot(vertex->wo, vertex->ng)),
                     vertex->wo, vertex->ng, path->edge, (path->traits & PATH_SPECULAR) && path->edge > 1u,
@@ -165,7 +171,8 @@ TRIAD_FUNCTION_PER_CALL int photon_edge(const Scene* scene, global const PhotonF
     const int everywhere = photon_frame->scatter != 0u;
     if (path->edge > 1u && !everywhere)
         photon_splat(scene, film, photon_frame->pixel_area, &vertex, path_wavelength(&path->colours),
-                     vec3_mul(power, photon->filter), random_point(u.set[2]), ++photon->ray_name, tally);
+                     vec3_mul(power, photon_filter(scene, photon)), random_point(u.set[2]),
+                     ++photon->ray_name, tally);
     const VertexBsdf bsdf = path_bsdf(scene, path, &vertex);
     if (path->edge > 1u || everywhere) photon_land(scene, photon, &vertex, &bsdf, power, &u);
 

@@ -8,7 +8,7 @@
 
 #include "path/photon.h"
 
-TRIAD_FUNCTION_ONCE void trace_photon(SCENE_PARAMETERS PARAMETERS(TRACE_PHOTONS_LIST), size_t item) {
+TRIAD_FUNCTION_WHOLE void trace_photon(SCENE_PARAMETERS PARAMETERS(TRACE_PHOTONS_LIST), size_t item) {
     if (item >= photon_count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     /* the halves of the film take turns as in sample_name() */

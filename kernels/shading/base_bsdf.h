@@ -11,6 +11,15 @@
 #include "shading/ggx.h"
 #include "shading/thin_film.h"
 
+#if BSDF_FILM
+/* Of the visible normals whose (wo.h)^2 lies in a bin or beyond: their share, as they are seen, and the sum
+ * of (wo.h)^2 (shading/base_film.h). */
+#define FILM_BINS 12u
+typedef struct FilmBins {
+    float share[FILM_BINS], square[FILM_BINS];
+} FilmBins;
+#endif
+
 /* A material seen from one wo. */
 typedef struct BaseBsdf {
     Colour diffuse; /* albedo of the Lambert lobe */
@@ -31,7 +40,8 @@ typedef struct BaseBsdf {
     Colour film;  /* share of the film times its weight, 0: none */
     Colour film0; /* reflectance of the base under the film at normal incidence */
     FilmInput film_input;
-    float film_share; /* 0: there is none */
+    float film_share;   /* 0: there is none */
+    FilmBins film_bins; /* while this is made: here, for private memory is shared by what lives as long */
 #endif
     float stretch;    /* ggx_stretch of wo */
     float cap;        /* ggx_cap of wo; 1: normals are not bounded */
@@ -41,9 +51,10 @@ typedef struct BaseBsdf {
 #if BSDF_TRANSMISSION
     uint transmits;
     uint solid;
-    float eta;                 /* index beyond the surface over index before it */
-    Colour fresnel0, fresnel1; /* F of the transmitter = fresnel0 + fresnel1 * F of the bare interface */
-    Colour transmitter;        /* its weight, energy compensation included */
+    float eta;      /* index beyond the surface over index before it */
+    float specular; /* F of the transmitter = specular - dip (1 - F of the bare interface) */
+    Colour dip;
+    Colour transmitter; /* its weight, energy compensation included */
     Colour tint;
     float p_cap; /* of a transmitter: probability that the normal is drawn within the cap */
 #endif
@@ -65,7 +76,7 @@ TRIAD_FUNCTION float base_body_scale(const BaseBsdf* b) { return b->solid ? 1.0f
 /* One interface without a film, whose dielectric of this index reflects r. */
 TRIAD_FUNCTION Colour base_interface_fresnel(const BaseBsdf* b, float r) {
     /* Brewster's dip goes below normal incidence */
-    return colour_at_least(colour_fma_scale(r, b->fresnel1, b->fresnel0), colour_splat(0.0f));
+    return colour_at_least(colour_fma_scale(r - 1.0f, b->dip, colour_splat(b->specular)), colour_splat(0.0f));
 }
 /* Fresnel factor of the transmitting part, c the cosine on wo's side; film: base_film of it, where there is
  * one. */

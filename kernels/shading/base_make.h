@@ -2,79 +2,9 @@
 #ifndef TRIAD_SHADING_BASE_MAKE_H
 #define TRIAD_SHADING_BASE_MAKE_H
 
-#include "shading/base_bsdf.h"
+#include "shading/base_film.h"
 
 #if BSDF_FILM
-#define FILM_NORMALS 24u
-#define FILM_BODY_NORMALS 64u
-/* Their mean m is too low by less than the lesser of these, the second for each unit of roughness, times
- * m (1 - m): lost rather than gained. */
-#define FILM_MARGIN 0.03f
-#define FILM_ROUGH_MARGIN 0.08f
-/* What is lost beyond that, for the few places where m is lower: by a Lambert lobe below a film on a rough
- * base, and by a rough body from inside, where a film reflects too steeply for so few normals: where total
- * reflection begins, and along the surface if its index is low. */
-#define FILM_LOSS 0.002f
-#define FILM_LOW_INDEX 1.1f
-#define FILM_BODY_LOSS 0.005f
-#define FILM_LOW_BODY_LOSS 0.016f
-/* Of 1 / share visible normals of the rough base, with their weight in a mean: heights are even in their
- * root, for the few that lean far reflect most. */
-TRIAD_FUNCTION Vec3 base_film_normal(const BaseBsdf* b, Vec3 wo, uint k, float share, float* weight) {
-    const float turn = ((float)k + 0.5f) * 0.618034f, t = ((float)k + 0.5f) * share;
-    *weight = 2.0f * t * share;
-    return base_normal(b, wo, 1.0f, vec2_make(turn - math_floor(turn), fma(-t, t, 1.0f)));
-}
-/* Share of what a visible normal scatters to w.z above the surface that is not masked: G2 / G1. */
-TRIAD_FUNCTION float base_unmasked(const BaseBsdf* b, Vec3 wo, Vec3 w) {
-    if (w.z <= 0.0f) return 0.0f;
-    return 0.5f * (wo.z + b->stretch) * ggx_masking(wo.z, b->stretch, w.z, base_stretch(b, w));
-}
-/* Mean of the film's reflectance over the reflections of the base, weighted as they are seen. */
-TRIAD_FUNCTION Colour base_film_mean(const BaseBsdf* b, Vec3 wo) {
-    if (b->smooth) return base_film(b, wo.z);
-    Colour sum = colour_splat(0.0f);
-    float weights = 0.0f;
-    for (uint k = 0u; k < FILM_NORMALS; ++k) {
-        float weight;
-        const Vec3 h = base_film_normal(b, wo, k, 1.0f / FILM_NORMALS, &weight);
-        const float seen = weight * base_unmasked(b, wo, vec3_reflect(wo, h));
-        if (seen <= 0.0f) continue;
-        sum = colour_fma_scale(seen, base_film(b, math_min(vec3_dot(wo, h), 1.0f)), sum);
-        weights += seen;
-    }
-    if (weights <= 0.0f) return base_film(b, wo.z);
-    const Colour mean = colour_scale(sum, 1.0f / weights);
-    const float margin = math_min(FILM_MARGIN, FILM_ROUGH_MARGIN * math_sqrt(b->alpha));
-    return colour_fma_scale(margin, colour_mul(mean, colour_complement(mean)), mean);
-}
-#if BSDF_TRANSMISSION
-/* What a film of share 1 adds to the albedo of a rough body: it reflects more than the interface that the
- * table is of, and what is reflected is masked otherwise than what is refracted. */
-TRIAD_FUNCTION Colour base_film_rise(const BaseBsdf* b, Vec3 wo) {
-    Colour sum = colour_splat(0.0f);
-    for (uint k = 0u; k < FILM_BODY_NORMALS; ++k) {
-        float weight;
-        const Vec3 h = base_film_normal(b, wo, k, 1.0f / FILM_BODY_NORMALS, &weight);
-        const float c = math_min(vec3_dot(wo, h), 1.0f), beyond = fresnel_refracted_cosine(c, b->eta);
-        if (beyond <= 0.0f) continue; /* total reflection is that, with a film too */
-        float more = base_unmasked(b, wo, vec3_reflect(wo, h));
-        more -= base_unmasked(
-            b, wo,
-            vec3_sub(vec3_scale(wo, 1.0f / b->eta), vec3_scale(h, c / b->eta - beyond))); /* its opposite */
-        Colour rise = base_film(b, c);
-        rise = colour_sub(rise, base_interface_fresnel(b, fresnel_dielectric(c, b->eta)));
-        sum = colour_fma_scale(weight * more, rise, sum);
-    }
-    return sum;
-}
-/* The share that the albedo of a body is raised by, for what the normals of base_film_rise miss. */
-TRIAD_FUNCTION float base_film_loss(const BaseBsdf* b) {
-    if (b->eta >= 1.0f) return 0.0f;
-    return b->film_input.ior < FILM_LOW_INDEX ? FILM_LOW_BODY_LOSS : FILM_BODY_LOSS;
-}
-#endif
-
 /* The film's share of what the microfacets reflect, `mean` of it, in a lobe of this weight; `kept` is the
  * albedo of the rough base with Fresnel factor 1, coat_albedo of what covers the Lambert lobe. Returns the
  * albedo of that share. */
@@ -125,9 +55,8 @@ TRIAD_FUNCTION float base_eta(const BsdfInput* in) {
 TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float transmitter,
                                           Colour coat0, float reflected, global const float* albedo_tables) {
     const float f0 = fresnel_normal(in->ior);
-    const Colour coat_rise = colour_sub(colour_splat(in->specular), coat0);
-    b->fresnel1 = colour_div(coat_rise, colour_splat(1.0f - f0));
-    b->fresnel0 = colour_fma_scale(-f0, b->fresnel1, coat0);
+    b->specular = in->specular;
+    b->dip = colour_scale(colour_sub(colour_splat(in->specular), coat0), 1.0f / (1.0f - f0));
     b->tint = in->base_colour;
 #if !BSDF_FILM
     b->eta = base_eta(in);
@@ -137,14 +66,13 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
         Colour kept = colour_splat(reflected);
         if (in->solid) {
             Vec2 glass = albedo_glass(albedo_tables, wo.z, in->roughness, f0, in->inside);
-            Colour lost = colour_sub(colour_complement(b->fresnel0), b->fresnel1);
-            kept = colour_add(
-                colour_add(colour_scale(b->fresnel0, reflected), colour_scale(b->fresnel1, glass.x)),
-                colour_scale(lost, glass.y));
+            const float bare = fma(in->specular, reflected, (1.0f - in->specular) * glass.y);
+            kept = colour_fma_scale(glass.x - reflected, b->dip, colour_splat(bare));
 #if BSDF_FILM
             if (b->film_share > 0.0f) {
                 kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
-                kept = colour_scale(kept, fma(b->film_share, base_film_loss(b), 1.0f));
+                const float loss = in->inside ? FILM_INSIDE_LOSS : FILM_BODY_LOSS;
+                kept = colour_scale(kept, fma(b->film_share, loss, 1.0f));
             }
 #endif
         }

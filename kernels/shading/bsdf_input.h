@@ -18,11 +18,12 @@
 #if BSDF_FILM
 /* A thin film between air and the base (shading/thin_film.h). */
 typedef struct FilmInput {
-    float ior;                     /* 1 to 1e6 */
-    float thickness;               /* nm */
-    global const float* responses; /* Scene.film_responses */
+    float ior;       /* 1 to 1e6 */
+    float thickness; /* nm */
 #if TRIAD_HERO
     Vec4 wavelengths; /* nm */
+#else
+    global const float* responses; /* Scene.film_responses */
 #endif
 } FilmInput;
 #endif

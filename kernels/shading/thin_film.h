@@ -35,25 +35,43 @@ TRIAD_FUNCTION Colour film_cosine(const FilmInput* film, float difference) {
 #endif
 }
 
-/* 1 - R of one polarisation and one channel; cosines[m - 1] is the mean of cos(m phi). */
-TRIAD_FUNCTION float film_transmitted(float r12, float r23, const float cosines[FILM_ORDERS]) {
-    const float x = r12 * r23;
-    float power = 1.0f, sum = 0.5f;
-    for (uint m = 0u; m < FILM_ORDERS; ++m) {
-        power *= -x;
-        sum = fma(power, cosines[m], sum);
-    }
-    return 2.0f * sum * (1.0f - r12 * r12) * (1.0f - r23 * r23) / math_max(1.0f - x * x, 1e-6f);
+/* One polarisation of one channel: r12 r23, its power, the sum so far and what that is scaled by to be 1 - R.
+ */
+typedef struct FilmPart {
+    float x, power, sum, scale;
+} FilmPart;
+TRIAD_FUNCTION FilmPart film_part(float r12, float r23) {
+    FilmPart part;
+    part.x = r12 * r23;
+    part.power = 1.0f;
+    part.sum = 0.5f;
+    part.scale = 2.0f * (1.0f - r12 * r12) * (1.0f - r23 * r23) / math_max(1.0f - part.x * part.x, 1e-6f);
+    return part;
+}
+TRIAD_FUNCTION void film_part_add(FilmPart* part, float cosine) {
+    part->power *= -part->x;
+    part->sum = fma(part->power, cosine, part->sum);
 }
 
-/* One channel; c1, c2: cosines in air and in the film. */
-TRIAD_FUNCTION float film_channel(float ior, float f0, float c1, float c2, const float cosines[FILM_ORDERS]) {
+typedef struct FilmChannel {
+    FilmPart s, p;
+} FilmChannel;
+/* c1, c2: cosines in air and in the film. */
+TRIAD_FUNCTION FilmChannel film_channel(float ior, float f0, float c1, float c2) {
     const float root = sqrt(math_min(f0, 0.9998f)), base = (1.0f + root) / (1.0f - root);
     const float c3 = fresnel_refracted_cosine(c1, base);
-    const float s12 = (c1 - ior * c2) / (c1 + ior * c2), p12 = (ior * c1 - c2) / (ior * c1 + c2);
-    const float s23 = (ior * c2 - base * c3) / (ior * c2 + base * c3),
-                p23 = (base * c2 - ior * c3) / (base * c2 + ior * c3);
-    const float through = film_transmitted(s12, s23, cosines) + film_transmitted(p12, p23, cosines);
+    FilmChannel channel;
+    channel.s = film_part((c1 - ior * c2) / (c1 + ior * c2), (ior * c2 - base * c3) / (ior * c2 + base * c3));
+    channel.p = film_part((ior * c1 - c2) / (ior * c1 + c2), (base * c2 - ior * c3) / (base * c2 + ior * c3));
+    return channel;
+}
+/* The next m; cosine: the mean of cos(m phi). */
+TRIAD_FUNCTION void film_channel_add(FilmChannel* channel, float cosine) {
+    film_part_add(&channel->s, cosine);
+    film_part_add(&channel->p, cosine);
+}
+TRIAD_FUNCTION float film_channel_reflectance(const FilmChannel* channel) {
+    const float through = fma(channel->s.sum, channel->s.scale, channel->p.sum * channel->p.scale);
     return math_saturate(1.0f - 0.5f * through);
 }
 
@@ -62,23 +80,26 @@ TRIAD_FUNCTION_PER_CALL Colour film_reflectance(const FilmInput* film, Colour f0
     const float c1 = math_max(math_min(c, 1.0f), 1e-4f);
     const float c2 = fresnel_refracted_cosine(c1, film->ior);
     const float difference = 2.0f * film->ior * film->thickness * c2;
-    float x[FILM_ORDERS], y[FILM_ORDERS], z[FILM_ORDERS];
+    FilmChannel x = film_channel(film->ior, f0.x, c1, c2), y = film_channel(film->ior, f0.y, c1, c2),
+                z = film_channel(film->ior, f0.z, c1, c2);
 #if TRIAD_HERO
-    float w[FILM_ORDERS];
+    FilmChannel w = film_channel(film->ior, f0.w, c1, c2);
 #endif
-    for (uint m = 0u; m < FILM_ORDERS; ++m) {
-        const Colour cosine = film_cosine(film, difference * (float)(m + 1u));
-        x[m] = cosine.x, y[m] = cosine.y, z[m] = cosine.z;
+    for (uint m = 1u; m <= FILM_ORDERS; ++m) {
+        const Colour cosine = film_cosine(film, difference * (float)m);
+        film_channel_add(&x, cosine.x);
+        film_channel_add(&y, cosine.y);
+        film_channel_add(&z, cosine.z);
 #if TRIAD_HERO
-        w[m] = cosine.w;
+        film_channel_add(&w, cosine.w);
 #endif
     }
     Colour r;
-    r.x = film_channel(film->ior, f0.x, c1, c2, x);
-    r.y = film_channel(film->ior, f0.y, c1, c2, y);
-    r.z = film_channel(film->ior, f0.z, c1, c2, z);
+    r.x = film_channel_reflectance(&x);
+    r.y = film_channel_reflectance(&y);
+    r.z = film_channel_reflectance(&z);
 #if TRIAD_HERO
-    r.w = film_channel(film->ior, f0.w, c1, c2, w);
+    r.w = film_channel_reflectance(&w);
 #endif
     return r;
 }

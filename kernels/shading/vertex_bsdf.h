@@ -22,9 +22,10 @@ TRIAD_FUNCTION void vertex_core_extensions(const Scene* scene, const Surface* s,
     input->film = s->film;
     input->film_input.ior = s->film_ior;
     input->film_input.thickness = s->film_thickness;
-    input->film_input.responses = scene->film_responses;
 #if TRIAD_HERO
     input->film_input.wavelengths = s->wavelengths;
+#else
+    input->film_input.responses = scene->film_responses;
 #endif
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION
