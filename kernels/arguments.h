@@ -71,6 +71,7 @@
     OWNED(uint, paths)       /* POOL_PATH_PLANES */                                               \
     OWNED(uint, hits)        /* POOL_HIT_PLANES */                                                \
     OWNED(uint, pending)     /* POOL_LIGHT_PLANES */                                              \
+    OWNED(float, films)      /* POOL_FILM_WORDS for each slot, of wave_stages.cl */               \
     SHARED(uint, next_pixel) /* of the work: slots take one after the other; idle slots */        \
     VALUE(uint, pool_count)
 

@@ -74,6 +74,8 @@ std::optional<KernelCost> cost_of(const std::string& kernel, const WorkCounts& c
         return cost("vertex", vertices, shading + planes(1.5 * path + hit) * vertices);
     if (kernel == "wave_connect_paths" || kernel == "wave_gather_photons")
         return cost("vertex", vertices, shading + planes(path + hit + light) * vertices);
+    if (kernel == "wave_average_films")
+        return cost("vertex", vertices, shading + planes(path + hit) * vertices);
     if (kernel == "wave_start_paths") return cost("sample", samples, planes(path) * samples);
     if (kernel == "wave_end_paths") return cost("sample", samples, planes(path) * samples + film * samples);
     return {};

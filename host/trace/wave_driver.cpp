@@ -11,12 +11,16 @@ namespace {
 /// Paths under way, pool after pool.
 class Pools {
   public:
-    Pools(Device& device, std::uint32_t count) : device_(device) {
+    /// film_words: floats of each slot, at least 1 in all.
+    Pools(Device& device, std::uint32_t count, std::size_t film_words) : device_(device) {
         arguments_.pool_count = count;
         arguments_.states = planes(1), arguments_.pixels = planes(1), arguments_.taken = planes(1);
         arguments_.rays = planes(1);
         arguments_.paths = planes(POOL_PATH_PLANES), arguments_.hits = planes(POOL_HIT_PLANES);
         arguments_.pending = planes(POOL_LIGHT_PLANES);
+        arguments_.films =
+            device.allocate_array<float>(std::max<std::size_t>(1, count * POOL_SLOTS * film_words));
+        bytes_ += arguments_.films.bytes();
         arguments_.next_pixel = device.allocate_array<std::uint32_t>(2);
     }
 
@@ -56,7 +60,7 @@ std::uint32_t levels_of(const PackedScene& packed) {
 class Wave : public PathDriver {
   public:
     Wave(const DeviceScene& scene, const RenderSettings& settings, const Features& features)
-        : device_(scene.device()), pools_(device_, std::max(1u, device_.info().compute_units)) {
+        : device_(scene.device()), pools_(device_, std::max(1u, device_.info().compute_units), 0) {
         Options options = options_of(features);
         options["TRIAD_CDF_LEVELS"] = std::to_string(levels_of(scene.packed()));
         trace_wave_ = device_.build(program_of(settings, "wave"), options).kernel("trace_wave");
@@ -76,10 +80,13 @@ class Wave : public PathDriver {
 class WaveStages : public PathDriver {
   public:
     WaveStages(const DeviceScene& scene, const RenderSettings& settings, const Features& features)
-        : device_(scene.device()), pools_(device_, (batch_of(device_) + POOL_SLOTS - 1) / POOL_SLOTS) {
+        : device_(scene.device()),
+          pools_(device_, (batch_of(device_) + POOL_SLOTS - 1) / POOL_SLOTS,
+                 features.iridescence ? POOL_FILM_WORDS : 0) {
         const Program program = device_.build(program_of(settings, "wave_stages"), options_of(features));
         std::vector<const char*> stages{"wave_end_paths", "wave_start_paths", "wave_intersect_edges",
                                         "wave_meet_surfaces"};
+        if (features.iridescence) stages.push_back("wave_average_films");
         if (features.gather) stages.push_back("wave_gather_photons");
         stages.insert(stages.end(), {"wave_connect_paths", "wave_scatter_paths", "wave_intersect_lights"});
         for (const char* stage : stages) stages_.push_back(program.kernel(stage));

@@ -25,6 +25,8 @@ typedef Vec4 Colour;
 TRIAD_FUNCTION float colour_average(Colour c) { return (c.x + c.y + c.z + c.w) * 0.25f; }
 TRIAD_FUNCTION float colour_largest(Colour c) { return math_max(math_max(c.x, c.y), math_max(c.z, c.w)); }
 #define colour_luminance colour_average
+#define colour_load vec4_load
+#define colour_store vec4_store
 #else
 typedef Vec3 Colour;
 #define colour_splat vec3_splat
@@ -41,6 +43,8 @@ typedef Vec3 Colour;
 #define colour_average vec3_average
 #define colour_largest vec3_largest
 #define colour_luminance vec3_luminance
+#define colour_load vec3_load
+#define colour_store vec3_store
 #endif
 
 /* 1 - c. */

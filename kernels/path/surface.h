@@ -8,6 +8,12 @@
 /* A surface may have to be looked at with each of the path's wavelengths. */
 #define PATH_EACH (TRIAD_HERO && TRIAD_DISPERSION && BSDF_TRANSMISSION)
 
+/* Stages that are launches look at a surface several times, and keep what takes long: means of films. */
+#ifndef TRIAD_STAGES
+#define TRIAD_STAGES 0
+#endif
+#define PATH_KEEPS_FILMS (TRIAD_STAGES && BSDF_FILM)
+
 /* The end of an edge. */
 typedef struct Vertex {
     Surface surface;
@@ -18,6 +24,9 @@ typedef struct Vertex {
     VertexBodies around; /* here: on wo's side */
 #if PATH_EACH
     int each; /* every wavelength sees another BSDF: path_bsdf() */
+#endif
+#if PATH_KEEPS_FILMS
+    global float* films; /* POOL_FILM_WORDS */
 #endif
 } Vertex;
 

@@ -35,7 +35,7 @@ kernel void trace_wave(SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)) {
     const WaveFilm film = {sums, half_sums, samples, first_pixel};
     const size_t item = get_global_id(0);
     if (item >= pool_count) return;
-    const Pool pool = pool_at(item, states, pixels, taken, rays, paths, hits, pending);
+    const Pool pool = pool_at(item, states, pixels, taken, rays, paths, hits, pending, films);
     Tally tally = tally_start();
     WAVE_SLOTS(i) pool.states[i] = WAVE_NEW;
     uint idle;

@@ -7,7 +7,8 @@
  *   wave_end      miss; the next wavelength; or add, and the slot's next sample
  *   wave_start    start
  *   wave_edge     what the edge meets
- *   wave_vertex   surface, emission, fork, gather and connect (wave_meet); scatter and survive (wave_go)
+ *   wave_vertex   surface, emission, fork, gather, connect, scatter and survive; in launches wave_meet,
+ *                 wave_films, wave_gather, wave_connect and wave_scatter
  *   wave_shadow   the light that the vertex has chosen, if it is seen
  * Where the stages are loops over the slots of a work-item's own pool, one launch does it all (path/wave.cl);
  * where they are launches, every work-item has a slot (path/wave_stages.cl).
@@ -31,6 +32,33 @@
 #define WAVE_LIGHT 8u
 /* Added to WAVE_END after the longest path that is allowed. */
 #define WAVE_LONGEST 16u
+
+/* Planes of the pool, from its first slot on. */
+typedef struct Pool {
+    global uint* states;  /* WAVE_* */
+    global uint* pixels;  /* of a slot, counted over the tiles of the launch */
+    global uint* taken;   /* samples that this pixel has had */
+    global uint* rays;    /* traced and not yet counted, where stages are launches */
+    global uint* paths;   /* PathState */
+    global uint* hits;    /* Hit */
+    global uint* pending; /* PendingLight */
+    global float* films;  /* POOL_FILM_WORDS of each slot, where stages are launches */
+} Pool;
+
+TRIAD_FUNCTION_PER_CALL Pool pool_at(size_t pool, global uint* states, global uint* pixels,
+                                     global uint* taken, global uint* rays, global uint* paths,
+                                     global uint* hits, global uint* pending, global float* films) {
+    const size_t first = pool * POOL_PLANE;
+    const Pool p = {states + first,
+                    pixels + first,
+                    taken + first,
+                    rays + first,
+                    paths + first * POOL_PATH_PLANES,
+                    hits + first * POOL_HIT_PLANES,
+                    pending + first * POOL_LIGHT_PLANES,
+                    films + pool * POOL_SLOTS * POOL_FILM_WORDS};
+    return p;
+}
 
 /* Parts of a path: stages store those that they change. */
 #define PART_NAME 1u     /* sampler */
@@ -173,5 +201,17 @@ TRIAD_FUNCTION_PER_CALL void planes_light(Planes* p, PendingLight* light) {
     planes_uint(p, &light->flags);
 #endif
 }
+
+#define POOL_LOAD(kind, planes, member)                        \
+    do {                                                       \
+        Planes pool_planes = planes_load(planes, i, PART_ALL); \
+        planes_##kind(&pool_planes, member);                   \
+    } while (0)
+#define POOL_STORE_PARTS(kind, planes, member, parts)        \
+    do {                                                     \
+        Planes pool_planes = planes_store(planes, i, parts); \
+        planes_##kind(&pool_planes, member);                 \
+    } while (0)
+#define POOL_STORE(kind, planes, member) POOL_STORE_PARTS(kind, planes, member, PART_ALL)
 
 #endif

@@ -1,6 +1,7 @@
 /* The driver `wave` where every stage of a round is a launch, and a work-item has a slot (path/wave.h): for
  * GPUs, which hide the memory that paths wait in, and where the registers of a kernel decide how many paths
  * are under way. */
+#define TRIAD_STAGES 1
 #ifndef TRIAD_INLINED
 #define TRIAD_INLINED 1 /* structs that functions hand to each other stay in registers */
 #endif
@@ -11,16 +12,16 @@
 
 /* A stage takes of its arguments what it needs. */
 #define WAVE_STAGE_PARAMETERS SCENE_PARAMETERS PARAMETERS(TRACE_WAVE_LIST)
-#define WAVE_STAGE                                                                         \
-    const size_t i = get_global_id(0) % POOL_SLOTS, item = get_global_id(0) / POOL_SLOTS;  \
-    if (item >= pool_count) return;                                                        \
-    const Scene scene = SCENE_FROM_PARAMETERS;                                             \
-    const Frame local_frame = *frame;                                                      \
-    const WaveWork list = {&local_frame, work + first_work, work_count * FILM_TILE_PIXELS, \
-                           ((ulong)first_sample_high << 32) | first_sample_low};           \
-    const WaveFilm film = {sums, half_sums, samples, first_pixel};                         \
-    const Pool pool = pool_at(item, states, pixels, taken, rays, paths, hits, pending);    \
-    Tally tally = tally_start();                                                           \
+#define WAVE_STAGE                                                                             \
+    const size_t i = get_global_id(0) % POOL_SLOTS, item = get_global_id(0) / POOL_SLOTS;      \
+    if (item >= pool_count) return;                                                            \
+    const Scene scene = SCENE_FROM_PARAMETERS;                                                 \
+    const Frame local_frame = *frame;                                                          \
+    const WaveWork list = {&local_frame, work + first_work, work_count * FILM_TILE_PIXELS,     \
+                           ((ulong)first_sample_high << 32) | first_sample_low};               \
+    const WaveFilm film = {sums, half_sums, samples, first_pixel};                             \
+    const Pool pool = pool_at(item, states, pixels, taken, rays, paths, hits, pending, films); \
+    Tally tally = tally_start();                                                               \
     (void)list, (void)film, (void)tally, (void)next_pixel, (void)counters;
 
 /* Rays are counted for each slot, and added up when it has nothing to do any more: else every item of these
@@ -58,6 +59,11 @@ kernel void wave_meet_surfaces(WAVE_STAGE_PARAMETERS) {
     WAVE_STAGE
     wave_meet(&scene, &pool, i, &tally);
     tally_add(counters, &tally);
+}
+
+kernel void wave_average_films(WAVE_STAGE_PARAMETERS) {
+    WAVE_STAGE
+    wave_films(&scene, &pool, i);
 }
 
 kernel void wave_gather_photons(WAVE_STAGE_PARAMETERS) {

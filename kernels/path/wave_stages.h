@@ -9,43 +9,6 @@
 #include "path/survive.h"
 #include "path/wave.h"
 
-/* Planes of the pool, from its first slot on. */
-typedef struct Pool {
-    global uint* states;  /* WAVE_* */
-    global uint* pixels;  /* of a slot, counted over the tiles of the launch */
-    global uint* taken;   /* samples that this pixel has had */
-    global uint* rays;    /* traced and not yet counted, where stages are launches */
-    global uint* paths;   /* PathState */
-    global uint* hits;    /* Hit */
-    global uint* pending; /* PendingLight */
-} Pool;
-
-TRIAD_FUNCTION_PER_CALL Pool pool_at(size_t pool, global uint* states, global uint* pixels,
-                                     global uint* taken, global uint* rays, global uint* paths,
-                                     global uint* hits, global uint* pending) {
-    const size_t first = pool * POOL_PLANE;
-    const Pool p = {states + first,
-                    pixels + first,
-                    taken + first,
-                    rays + first,
-                    paths + first * POOL_PATH_PLANES,
-                    hits + first * POOL_HIT_PLANES,
-                    pending + first * POOL_LIGHT_PLANES};
-    return p;
-}
-
-#define POOL_LOAD(kind, planes, member)                        \
-    do {                                                       \
-        Planes pool_planes = planes_load(planes, i, PART_ALL); \
-        planes_##kind(&pool_planes, member);                   \
-    } while (0)
-#define POOL_STORE_PARTS(kind, planes, member, parts)        \
-    do {                                                     \
-        Planes pool_planes = planes_store(planes, i, parts); \
-        planes_##kind(&pool_planes, member);                 \
-    } while (0)
-#define POOL_STORE(kind, planes, member) POOL_STORE_PARTS(kind, planes, member, PART_ALL)
-
 /* The list of work of a launch. */
 typedef struct WaveWork {
     const Frame* frame;
@@ -172,13 +135,31 @@ TRIAD_FUNCTION_PER_CALL void wave_meet(const Scene* scene, const Pool* pool, siz
     }
 }
 
-#define WAVE_AT_VERTEX                          \
-    PathState path;                             \
-    Hit hit;                                    \
-    POOL_LOAD(path, pool->paths, &path);        \
-    POOL_LOAD(hit, pool->hits, &hit);           \
-    const SamplerBlock u = path_numbers(&path); \
-    Vertex vertex = path_look(scene, &path, &hit);
+#if PATH_KEEPS_FILMS
+#define WAVE_FILMS vertex.films = pool->films + i * POOL_FILM_WORDS;
+#else
+#define WAVE_FILMS
+#endif
+#define WAVE_AT_VERTEX                             \
+    PathState path;                                \
+    Hit hit;                                       \
+    POOL_LOAD(path, pool->paths, &path);           \
+    POOL_LOAD(hit, pool->hits, &hit);              \
+    const SamplerBlock u = path_numbers(&path);    \
+    Vertex vertex = path_look(scene, &path, &hit); \
+    WAVE_FILMS
+
+/* What films over rough surfaces reflect in the mean takes long to find, and two stages need it. */
+TRIAD_FUNCTION_PER_CALL void wave_films(const Scene* scene, const Pool* pool, size_t i) {
+#if PATH_KEEPS_FILMS
+    if (pool->states[i] == WAVE_GO) {
+        WAVE_AT_VERTEX(void) u;
+        path_keep_films(scene, &path, &vertex);
+    }
+#else
+    (void)scene, (void)pool, (void)i;
+#endif
+}
 
 TRIAD_FUNCTION_PER_CALL void wave_gather(const Scene* scene, const Pool* pool, size_t i) {
     if (pool->states[i] == WAVE_GO) {

@@ -4,7 +4,74 @@
 
 #include "shading/base_film.h"
 
+#if TRIAD_SPECULAR
+/* What the dielectric reflects at normal incidence. */
+TRIAD_FUNCTION Colour base_coat0(const BsdfInput* in, float f0) {
+    return colour_scale(colour_at_most(colour_scale(in->specular_colour, f0), colour_splat(1.0f)),
+                        in->specular);
+}
+#if BSDF_TRANSMISSION
+/* What base_interface_fresnel() needs. */
+TRIAD_FUNCTION void base_interface(BaseBsdf* b, const BsdfInput* in, float f0) {
+    const Colour specular = colour_splat(in->specular);
+    b->eta = in->solid && in->inside ? 1.0f / in->ior : in->ior;
+    b->specular = in->specular;
+    b->dip = colour_scale(colour_sub(specular, base_coat0(in, f0)), 1.0f / (1.0f - f0));
+}
+#endif
+/* The microfacets of the core and what lies over them. Returns the transmitter's share. */
+TRIAD_FUNCTION float base_microfacets(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float f0) {
+    b->alpha = math_square(in->roughness);
+    b->smooth = b->alpha < BSDF_SMOOTH_ALPHA;
+#if BSDF_STRETCHED
+    b->alpha_x = fma(1.0f - b->alpha, math_square(in->anisotropy), b->alpha);
+    if (b->smooth && b->alpha_x >= BSDF_SMOOTH_ALPHA) b->smooth = 0u, b->alpha = BSDF_SMOOTH_ALPHA;
+#endif
+    b->stretch = base_stretch(b, wo);
+#if BSDF_TRANSMISSION
+    const float transmitter = in->ior >= 1.0f && f0 < 1.0f ? (1.0f - in->metallic) * in->transmission : 0.0f;
+    b->transmits = transmitter > 0.0f;
+    b->solid = in->solid;
+    if (b->transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b->smooth = 1u;
+#else
+    const float transmitter = 0.0f;
+    (void)f0;
+#endif
 #if BSDF_FILM
+    b->film = colour_splat(0.0f);
+    b->film_share = in->film_input.thickness > 0.0f ? in->film : 0.0f;
+    if (b->film_share > 0.0f) {
+        b->film_input = in->film_input;
+        const Colour coat0 = base_coat0(in, f0);
+        b->film0 = colour_fma_scale(in->metallic, colour_sub(in->base_colour, coat0), coat0);
+#if BSDF_TRANSMISSION
+        if (b->transmits) base_interface(b, in, f0);
+#endif
+    }
+#endif
+    return transmitter;
+}
+#endif
+
+#if BSDF_FILM
+/* Of the lobe that a film covers: 0 of a body that is nothing else. */
+TRIAD_FUNCTION float base_film_weight(const BsdfInput* in, float opaque) {
+    return fma(opaque, in->specular, in->metallic);
+}
+/* What base_make() can be given; 0 where it needs none. wo.z > 0. */
+TRIAD_FUNCTION FilmMeans base_film_means(const BsdfInput* in, Vec3 wo) {
+    BaseBsdf b;
+    FilmMeans means;
+    const float f0 = fresnel_normal(in->ior);
+    const float transmitter = base_microfacets(&b, in, wo, f0);
+    means.mean = means.rise = colour_splat(0.0f);
+    if (!(b.film_share > 0.0f)) return means;
+    if (base_film_weight(in, 1.0f - in->metallic - transmitter) > 0.0f) means.mean = base_film_mean(&b, wo);
+#if BSDF_TRANSMISSION
+    if (b.transmits && b.solid && !b.smooth) means.rise = base_film_rise(&b, wo);
+#endif
+    return means;
+}
 /* The film's share of what the microfacets reflect, `mean` of it, in a lobe of this weight; `kept` is the
  * albedo of the rough base with Fresnel factor 1, coat_albedo of what covers the Lambert lobe. Returns the
  * albedo of that share. */
@@ -13,7 +80,6 @@ TRIAD_FUNCTION float base_add_film(BaseBsdf* b, const BsdfInput* in, Colour mean
     Colour whole = colour_fma_scale((1.0f - kept) / kept, mean, colour_splat(1.0f));
     Colour film_albedo = colour_scale(colour_mul(whole, mean), in->film * kept);
     b->film = colour_scale(whole, in->film * weight);
-    b->film_share = in->film;
     b->specular0 = colour_scale(b->specular0, 1.0f - in->film);
     b->specular1 = colour_scale(b->specular1, 1.0f - in->film);
     const Colour hidden = colour_add(film_albedo, colour_splat(b->smooth ? 0.0f : in->film * FILM_LOSS));
@@ -45,22 +111,13 @@ TRIAD_FUNCTION float base_lambert_albedo(const BaseBsdf* b) {
 }
 
 #if BSDF_TRANSMISSION
-/* Index beyond the surface over index before it. */
-TRIAD_FUNCTION float base_eta(const BsdfInput* in) {
-    return in->solid && in->inside ? 1.0f / in->ior : in->ior;
-}
-/* The transmitter's share of the core: a dielectric of reflectance coat0 at normal incidence, whose
- * `reflected` is the albedo of GGX with Fresnel factor 1. Returns an estimate of its albedo, without a film.
+/* The transmitter's share of the core, whose `reflected` is the albedo of GGX with Fresnel factor 1. Returns
+ * an estimate of its albedo, without a film.
  */
 TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3 wo, float transmitter,
-                                          Colour coat0, float reflected, global const float* albedo_tables) {
-    const float f0 = fresnel_normal(in->ior);
-    b->specular = in->specular;
-    b->dip = colour_scale(colour_sub(colour_splat(in->specular), coat0), 1.0f / (1.0f - f0));
+                                          float f0, float reflected, global const float* albedo_tables) {
     b->tint = in->base_colour;
-#if !BSDF_FILM
-    b->eta = base_eta(in);
-#endif
+    base_interface(b, in, f0);
     b->transmitter = colour_splat(transmitter);
     if (!b->smooth) {
         Colour kept = colour_splat(reflected);
@@ -70,7 +127,9 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
             kept = colour_fma_scale(glass.x - reflected, b->dip, colour_splat(bare));
 #if BSDF_FILM
             if (b->film_share > 0.0f) {
-                kept = colour_fma_scale(b->film_share, base_film_rise(b, wo), kept);
+                kept = colour_fma_scale(
+                    b->film_share,
+                    in->has_film_means ? colour_load(in->film_means, 1u) : base_film_rise(b, wo), kept);
                 const float loss = in->inside ? FILM_INSIDE_LOSS : FILM_BODY_LOSS;
                 kept = colour_scale(kept, fma(b->film_share, loss, 1.0f));
             }
@@ -91,32 +150,6 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
 }
 #endif
 
-#if TRIAD_SPECULAR
-/* Roughness of the core and what it lets through. Returns the transmitter's share. */
-TRIAD_FUNCTION float base_microfacets(BaseBsdf* b, const BsdfInput* in, float f0) {
-    b->alpha = math_square(in->roughness);
-    b->smooth = b->alpha < BSDF_SMOOTH_ALPHA;
-#if BSDF_STRETCHED
-    b->alpha_x = fma(1.0f - b->alpha, math_square(in->anisotropy), b->alpha);
-    if (b->smooth && b->alpha_x >= BSDF_SMOOTH_ALPHA) b->smooth = 0u, b->alpha = BSDF_SMOOTH_ALPHA;
-#endif
-#if BSDF_FILM
-    b->film = colour_splat(0.0f);
-    b->film_share = 0.0f;
-#endif
-#if BSDF_TRANSMISSION
-    const float transmitter = in->ior >= 1.0f && f0 < 1.0f ? (1.0f - in->metallic) * in->transmission : 0.0f;
-    b->transmits = transmitter > 0.0f;
-    b->solid = in->solid;
-    if (b->transmits && in->solid && in->ior < 1.0f + BSDF_SAME_INDEX) b->smooth = 1u;
-    return transmitter;
-#else
-    (void)f0;
-    return 0.0f;
-#endif
-}
-#endif
-
 /* wo.z > 0. Colours in [0, 1], metallic, roughness, specular, transmission in [0, 1], ior 0 or at least 1. */
 TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const float* albedo_tables) {
     BaseBsdf b;
@@ -127,10 +160,10 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     b.albedo = base_lambert_albedo(&b);
 #endif
 #else
-    float f0 = fresnel_normal(in->ior);
-    Colour coat0 =
-        colour_scale(colour_at_most(colour_scale(in->specular_colour, f0), colour_splat(1.0f)), in->specular);
-    const float transmitter = base_microfacets(&b, in, f0), opaque = 1.0f - in->metallic - transmitter;
+    const float f0 = fresnel_normal(in->ior);
+    const Colour coat0 = base_coat0(in, f0);
+    const float transmitter = base_microfacets(&b, in, wo, f0);
+    const float opaque = 1.0f - in->metallic - transmitter;
     if (in->metallic == 0.0f && in->specular == 0.0f && transmitter == 0.0f) {
         b.specular0 = b.specular1 = colour_splat(0.0f); /* what follows would come to the same bits */
         b.p_specular = 0.0f;
@@ -158,17 +191,13 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
     b.specular1 = colour_fma(metal, colour_complement(metal0), colour_mul(opaque_coat, coat_rise));
     Colour coat_albedo =
         colour_mul(coat, colour_fma_scale(albedo.y, coat_rise, colour_scale(coat0, albedo.x)));
-    b.stretch = base_stretch(&b, wo);
-#if BSDF_FILM && BSDF_TRANSMISSION
-    b.eta = base_eta(in); /* the film's mean needs it */
-#endif
     float p = 0.0f;
 #if BSDF_FILM
-    if (in->film > 0.0f && in->film_input.thickness > 0.0f) {
-        b.film_input = in->film_input;
-        b.film0 = colour_fma_scale(in->metallic, colour_sub(metal0, coat0), coat0);
-        const float weight = fma(opaque, in->specular, in->metallic); /* 0 of a body that is nothing else */
-        const Colour mean = weight > 0.0f ? base_film_mean(&b, wo) : colour_splat(0.0f);
+    if (b.film_share > 0.0f) {
+        const float weight = base_film_weight(in, opaque);
+        Colour mean = colour_splat(0.0f);
+        if (weight > 0.0f)
+            mean = in->has_film_means ? colour_load(in->film_means, 0u) : base_film_mean(&b, wo);
         p = base_add_film(&b, in, mean, weight, albedo.x, &coat_albedo);
     }
 #endif
@@ -178,7 +207,7 @@ TRIAD_FUNCTION BaseBsdf base_make(const BsdfInput* in, Vec3 wo, global const flo
 #if BSDF_TRANSMISSION
     b.p_cap = 0.0f;
     if (b.transmits) {
-        p += base_add_transmitter(&b, in, wo, transmitter, coat0, albedo.x, albedo_tables);
+        p += base_add_transmitter(&b, in, wo, transmitter, f0, albedo.x, albedo_tables);
         bounded = b.p_cap > 0.0f;
     }
 #endif

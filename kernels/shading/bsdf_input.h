@@ -26,6 +26,11 @@ typedef struct FilmInput {
     global const float* responses; /* Scene.film_responses */
 #endif
 } FilmInput;
+/* Of a film on a rough base, seen from one wo (shading/base_film.h). */
+typedef struct FilmMeans {
+    Colour mean; /* of its reflectance, over what the base reflects */
+    Colour rise; /* what a film of share 1 adds to the albedo of a body */
+} FilmMeans;
 #endif
 
 typedef struct BsdfInput {
@@ -49,6 +54,8 @@ typedef struct BsdfInput {
 #if BSDF_FILM
     float film; /* share of the surface that it covers */
     FilmInput film_input;
+    uint has_film_means;            /* 0: they are to be found */
+    global const float* film_means; /* FilmMeans */
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION
     float through; /* share of the Lambert base that leaves beyond the surface */
@@ -76,6 +83,7 @@ TRIAD_FUNCTION BsdfInput bsdf_input_plain(Colour base_colour) {
 #endif
 #if BSDF_FILM
     in.film = 0.0f;
+    in.has_film_means = 0u;
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION
     in.through = 0.0f;
