@@ -127,9 +127,9 @@ TRIAD_FUNCTION float base_add_transmitter(BaseBsdf* b, const BsdfInput* in, Vec3
             kept = colour_fma_scale(glass.x - reflected, b->dip, colour_splat(bare));
 #if BSDF_FILM
             if (b->film_share > 0.0f) {
-                kept = colour_fma_scale(
-                    b->film_share,
-                    in->has_film_means ? colour_load(in->film_means, 1u) : base_film_rise(b, wo), kept);
+                const Colour rise =
+                    in->has_film_means ? colour_load(in->film_means, 1u) : base_film_rise(b, wo);
+                kept = colour_fma_scale(b->film_share, rise, kept);
                 const float loss = in->inside ? FILM_INSIDE_LOSS : FILM_BODY_LOSS;
                 kept = colour_scale(kept, fma(b->film_share, loss, 1.0f));
             }

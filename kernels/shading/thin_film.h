@@ -46,6 +46,10 @@ TRIAD_FUNCTION Vec3 film_cosines(const FilmInput* film, float difference) {
 }
 #endif
 
+/* The sum from an order m on, where it is `sum` from the next one on (Horner); cosine: of cos(m phi). */
+TRIAD_FUNCTION float film_sum(float r12, float r23, float cosine, float sum) {
+    return -r12 * r23 * (cosine + sum);
+}
 /* 1 - R of one polarisation, whose sum over m is `sum`. */
 TRIAD_FUNCTION float film_transmitted(float r12, float r23, float sum) {
     const float x = r12 * r23;
@@ -59,13 +63,14 @@ TRIAD_FUNCTION float film_channel(float ior, float f0, float c1, float c2, const
     const float s12 = (c1 - ior * c2) / (c1 + ior * c2), p12 = (ior * c1 - c2) / (ior * c1 + c2);
     const float s23 = (ior * c2 - base * c3) / (ior * c2 + base * c3),
                 p23 = (base * c2 - ior * c3) / (base * c2 + ior * c3);
-    float s = 0.0f, p = 0.0f; /* from the last m on (Horner) */
+    float s = 0.0f, p = 0.0f;
     for (uint m = FILM_ORDERS; m > 0u; --m) {
         const float cosine = film_cosine(phase, m);
-        s = -s12 * s23 * (cosine + s);
-        p = -p12 * p23 * (cosine + p);
+        s = film_sum(s12, s23, cosine, s);
+        p = film_sum(p12, p23, cosine, p);
     }
-    return math_saturate(1.0f - 0.5f * (film_transmitted(s12, s23, s) + film_transmitted(p12, p23, p)));
+    const float through = film_transmitted(s12, s23, s) + film_transmitted(p12, p23, p);
+    return math_saturate(1.0f - 0.5f * through);
 }
 
 /* c: cosine in air; f0: of the base without the film. */
