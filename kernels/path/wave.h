@@ -67,8 +67,9 @@ TRIAD_FUNCTION_PER_CALL Pool pool_at(size_t pool, global uint* states, global ui
 #define PART_FROM 8u     /* from, normal */
 #define PART_COLOURS 16u /* colours */
 #define PART_FOUND 32u   /* radiance, alpha */
-#define PART_FORK 64u    /* fork */
-#define PART_ALL 127u
+#define PART_FORK 64u    /* branch and edge of fork */
+#define PART_FORKED 128u /* the rest of it: set where the path forks */
+#define PART_ALL 255u
 
 /* Words of a slot on their way between planes and a path's members, in the order of the calls. */
 typedef struct Planes {
@@ -180,6 +181,7 @@ TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
     planes_part(p, PART_FORK);
     PathFork* fork = &path->fork;
     planes_uint(p, &fork->branch), planes_uint(p, &fork->edge);
+    planes_part(p, PART_FORKED);
     planes_hit(p, &fork->hit);
     planes_array3(p, fork->direction);
     planes_uint(p, &fork->traits);
@@ -202,11 +204,12 @@ TRIAD_FUNCTION_PER_CALL void planes_light(Planes* p, PendingLight* light) {
 #endif
 }
 
-#define POOL_LOAD(kind, planes, member)                        \
-    do {                                                       \
-        Planes pool_planes = planes_load(planes, i, PART_ALL); \
-        planes_##kind(&pool_planes, member);                   \
+#define POOL_LOAD_PARTS(kind, planes, member, parts)        \
+    do {                                                    \
+        Planes pool_planes = planes_load(planes, i, parts); \
+        planes_##kind(&pool_planes, member);                \
     } while (0)
+#define POOL_LOAD(kind, planes, member) POOL_LOAD_PARTS(kind, planes, member, PART_ALL)
 #define POOL_STORE_PARTS(kind, planes, member, parts)        \
     do {                                                     \
         Planes pool_planes = planes_store(planes, i, parts); \

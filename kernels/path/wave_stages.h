@@ -116,7 +116,7 @@ TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, s
             state = vertex_connect(scene, pool, i, &path, &vertex, &bsdf, &u, pick);
             state |= vertex_scatter(scene, &path, &vertex, &bsdf, &u, tally);
         }
-        POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET | PARTS_SCATTER);
+        POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET | PART_FORKED | PARTS_SCATTER);
         pool->states[i] = state;
     }
 }
@@ -126,12 +126,16 @@ TRIAD_FUNCTION_PER_CALL void wave_meet(const Scene* scene, const Pool* pool, siz
     if (pool->states[i] == WAVE_HIT) {
         PathState path;
         Hit hit;
-        POOL_LOAD(path, pool->paths, &path);
+        POOL_LOAD_PARTS(path, pool->paths, &path, PART_ALL & ~PART_FORKED);
         POOL_LOAD(hit, pool->hits, &hit);
         const LightPick lit = path_lit(scene, &path, &hit);
         const Vertex vertex = path_surface(scene, &path, &hit, tally);
         pool->states[i] = vertex_meet(scene, &path, &vertex, lit, tally);
         POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET);
+#if PATH_FORKS
+        if (path.fork.edge == path.edge && path.fork.branch == 0u)
+            POOL_STORE_PARTS(path, pool->paths, &path, PART_FORKED);
+#endif
     }
 }
 

@@ -19,24 +19,12 @@
  */
 #define FILM_MOST_DIFFERENCE 1e8f
 
-/* What cos(m phi) is in the mean at one channel of colours, m from 1 to FILM_ORDERS; at one wavelength it is
- * had from the difference whenever it is needed, which takes fewer registers. */
-typedef struct FilmPhase {
+/* Mean of cos(2 pi D / lambda), D in nm: at a wavelength, or at the channels of colours. */
 #if TRIAD_HERO
-    float difference, wavelength;
-#else
-    float cosines[FILM_ORDERS];
-#endif
-} FilmPhase;
-TRIAD_FUNCTION float film_cosine(const FilmPhase* phase, uint m) {
-#if TRIAD_HERO
-    const float difference = phase->difference * (float)m;
-    return difference < FILM_MOST_DIFFERENCE ? math_cos_turns(difference / phase->wavelength) : 0.0f;
-#else
-    return phase->cosines[m - 1u];
-#endif
+TRIAD_FUNCTION float film_cosine(float wavelength, float difference) {
+    return difference < FILM_MOST_DIFFERENCE ? math_cos_turns(difference / wavelength) : 0.0f;
 }
-#if !TRIAD_HERO
+#else
 TRIAD_FUNCTION Vec3 film_cosines(const FilmInput* film, float difference) {
     const float x = difference * (1.0f / FILM_STEP);
     if (!(x < (float)(FILM_ROWS - 1))) return vec3_splat(0.0f);
@@ -56,45 +44,67 @@ TRIAD_FUNCTION float film_transmitted(float r12, float r23, float sum) {
     return (1.0f + 2.0f * sum) * (1.0f - r12 * r12) * (1.0f - r23 * r23) / math_max(1.0f - x * x, 1e-6f);
 }
 
-/* One channel; c1, c2: cosines in air and in the film. */
-TRIAD_FUNCTION float film_channel(float ior, float f0, float c1, float c2, const FilmPhase* phase) {
+/* Amplitudes that the two sides of the film reflect, at one channel. */
+typedef struct FilmSides {
+    float s12, s23, p12, p23;
+} FilmSides;
+/* c1, c2: cosines in air and in the film. */
+TRIAD_FUNCTION FilmSides film_sides(float ior, float f0, float c1, float c2) {
     const float root = sqrt(math_min(f0, 0.9998f)), base = (1.0f + root) / (1.0f - root);
     const float c3 = fresnel_refracted_cosine(c1, base);
-    const float s12 = (c1 - ior * c2) / (c1 + ior * c2), p12 = (ior * c1 - c2) / (ior * c1 + c2);
-    const float s23 = (ior * c2 - base * c3) / (ior * c2 + base * c3),
-                p23 = (base * c2 - ior * c3) / (base * c2 + ior * c3);
-    float s = 0.0f, p = 0.0f;
-    for (uint m = FILM_ORDERS; m > 0u; --m) {
-        const float cosine = film_cosine(phase, m);
-        s = film_sum(s12, s23, cosine, s);
-        p = film_sum(p12, p23, cosine, p);
-    }
-    const float through = film_transmitted(s12, s23, s) + film_transmitted(p12, p23, p);
+    FilmSides a;
+    a.s12 = (c1 - ior * c2) / (c1 + ior * c2), a.p12 = (ior * c1 - c2) / (ior * c1 + c2);
+    a.s23 = (ior * c2 - base * c3) / (ior * c2 + base * c3);
+    a.p23 = (base * c2 - ior * c3) / (base * c2 + ior * c3);
+    return a;
+}
+TRIAD_FUNCTION float film_reflected(const FilmSides* a, float s, float p) {
+    const float through = film_transmitted(a->s12, a->s23, s) + film_transmitted(a->p12, a->p23, p);
     return math_saturate(1.0f - 0.5f * through);
 }
+#if TRIAD_HERO
+TRIAD_FUNCTION float film_wave(FilmSides a, float difference, float wavelength) {
+    float s = 0.0f, p = 0.0f;
+    for (uint m = FILM_ORDERS; m > 0u; --m) {
+        const float cosine = film_cosine(wavelength, difference * (float)m);
+        s = film_sum(a.s12, a.s23, cosine, s);
+        p = film_sum(a.p12, a.p23, cosine, p);
+    }
+    return film_reflected(&a, s, p);
+}
+#else
+/* cosines[m - 1]: the mean of cos(m phi). */
+TRIAD_FUNCTION float film_channel(FilmSides a, const float cosines[FILM_ORDERS]) {
+    float s = 0.0f, p = 0.0f;
+    for (uint m = FILM_ORDERS; m > 0u; --m) {
+        s = film_sum(a.s12, a.s23, cosines[m - 1u], s);
+        p = film_sum(a.p12, a.p23, cosines[m - 1u], p);
+    }
+    return film_reflected(&a, s, p);
+}
+#endif
 
 /* c: cosine in air; f0: of the base without the film. */
 TRIAD_FUNCTION_PER_CALL Colour film_reflectance(const FilmInput* film, Colour f0, float c) {
     const float ior = film->ior, c1 = math_max(math_min(c, 1.0f), 1e-4f);
     const float c2 = fresnel_refracted_cosine(c1, ior);
     const float difference = 2.0f * ior * film->thickness * c2;
-    Colour r;
 #if TRIAD_HERO
     const Vec4 w = film->wavelengths;
-    const FilmPhase x = {difference, w.x}, y = {difference, w.y}, z = {difference, w.z},
-                    last = {difference, w.w};
-    r.w = film_channel(ior, f0.w, c1, c2, &last);
+    return vec4_make(film_wave(film_sides(ior, f0.x, c1, c2), difference, w.x),
+                     film_wave(film_sides(ior, f0.y, c1, c2), difference, w.y),
+                     film_wave(film_sides(ior, f0.z, c1, c2), difference, w.z),
+                     film_wave(film_sides(ior, f0.w, c1, c2), difference, w.w));
 #else
-    FilmPhase x, y, z;
-    for (uint m = 1u; m <= FILM_ORDERS; ++m) {
-        const Vec3 cosines = film_cosines(film, difference * (float)m);
-        x.cosines[m - 1u] = cosines.x, y.cosines[m - 1u] = cosines.y, z.cosines[m - 1u] = cosines.z;
+    float x[FILM_ORDERS], y[FILM_ORDERS], z[FILM_ORDERS];
+    for (uint m = 0u; m < FILM_ORDERS; ++m) {
+        const Vec3 cosines = film_cosines(film, difference * (float)(m + 1u));
+        x[m] = cosines.x, y[m] = cosines.y, z[m] = cosines.z;
     }
+    return vec3_make(film_channel(film_sides(ior, f0.x, c1, c2), x),
+                     film_channel(film_sides(ior, f0.y, c1, c2), y),
+                     film_channel(film_sides(ior, f0.z, c1, c2), z));
 #endif
-    r.x = film_channel(ior, f0.x, c1, c2, &x);
-    r.y = film_channel(ior, f0.y, c1, c2, &y);
-    r.z = film_channel(ior, f0.z, c1, c2, &z);
-    return r;
 }
 #endif
 
