@@ -98,7 +98,8 @@ TRIAD_SIZE(TileWork, 32);
 #define POOL_PATH_PLANES 83
 #define POOL_HIT_PLANES 6
 #define POOL_LIGHT_PLANES 20
-/* Words of a slot, one after the other: means of a film for each of four wavelengths (shading/bsdf_input.h). */
+/* Words of a slot, one after the other: means of a film for each of four wavelengths (shading/bsdf_input.h).
+ */
 #define POOL_FILM_WORDS 32
 
 /* Film channels: R, G, B, alpha; sums are int64 fixed point, so that order does not matter. */
