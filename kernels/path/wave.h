@@ -204,17 +204,14 @@ TRIAD_FUNCTION_PER_CALL void planes_light(Planes* p, PendingLight* light) {
 #endif
 }
 
-#define POOL_LOAD_PARTS(kind, planes, member, parts)        \
-    do {                                                    \
-        Planes pool_planes = planes_load(planes, i, parts); \
-        planes_##kind(&pool_planes, member);                \
+#define POOL_MOVE(kind, moved, member)       \
+    do {                                     \
+        Planes pool_planes = moved;          \
+        planes_##kind(&pool_planes, member); \
     } while (0)
+#define POOL_LOAD_PARTS(kind, planes, member, parts) POOL_MOVE(kind, planes_load(planes, i, parts), member)
+#define POOL_STORE_PARTS(kind, planes, member, parts) POOL_MOVE(kind, planes_store(planes, i, parts), member)
 #define POOL_LOAD(kind, planes, member) POOL_LOAD_PARTS(kind, planes, member, PART_ALL)
-#define POOL_STORE_PARTS(kind, planes, member, parts)        \
-    do {                                                     \
-        Planes pool_planes = planes_store(planes, i, parts); \
-        planes_##kind(&pool_planes, member);                 \
-    } while (0)
 #define POOL_STORE(kind, planes, member) POOL_STORE_PARTS(kind, planes, member, PART_ALL)
 
 #endif
