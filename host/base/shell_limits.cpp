@@ -54,13 +54,29 @@ Text limits_in_force() {
     ::_exit(static_cast<int>(Exit::memory));
 }
 
-void end_before_main() { end("Triad's libraries cannot start within what the shell allows"); }
-
-std::terminate_handler ordinary_end = nullptr;
+void end_at_start() { end("Triad's libraries cannot start within what the shell allows"); }
 
 bool is_memory_limited() {
     rlimit memory{};
     return ::getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY;
+}
+
+std::terminate_handler ordinary_end = nullptr;
+struct sigaction ordinary_fault {};
+
+/// Initialisers cannot report what they lack.
+void watch() {
+    ordinary_end = std::set_terminate(end_at_start);
+    if (!is_memory_limited()) return;
+    // OpenImageIO's table of names is allocated by one, and used unchecked.
+    struct sigaction action {};
+    action.sa_handler = [](int) { end_at_start(); };
+    ::sigaction(SIGSEGV, &action, &ordinary_fault);
+}
+
+void watch_no_more() {
+    std::set_terminate(ordinary_end);
+    if (is_memory_limited()) ::sigaction(SIGSEGV, &ordinary_fault, nullptr);
 }
 
 }  // namespace
@@ -68,9 +84,7 @@ bool is_memory_limited() {
 std::string shell_limits() { return limits_in_force().characters; }
 
 void heed_shell_limits() {
-    ordinary_end = std::set_terminate(end_before_main);
-    // OpenImageIO's table of names is allocated before main, and used unchecked.
-    if (is_memory_limited()) ::signal(SIGSEGV, [](int) { end_before_main(); });
+    watch();
     rlimit stack{};
     if (::getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur >= usual_stack) return;
     // The main thread's grows up to what is allowed when it grows; those of others are set when they start.
@@ -84,9 +98,13 @@ void heed_shell_limits() {
     ::pthread_attr_destroy(&attributes);
 }
 
-void libraries_have_started() {
-    std::set_terminate(ordinary_end);
-    if (is_memory_limited()) ::signal(SIGSEGV, SIG_DFL);
+void libraries_have_started() { watch_no_more(); }
+
+LibrariesStart::LibrariesStart() {
+    if (is_memory_limited()) watch();
+}
+LibrariesStart::~LibrariesStart() {
+    if (is_memory_limited()) watch_no_more();
 }
 
 }  // namespace triad

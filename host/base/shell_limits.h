@@ -16,4 +16,12 @@ void heed_shell_limits();
 /// Main has begun: from here on exceptions are caught where they should be.
 void libraries_have_started();
 
+/// While it lives, libraries are loaded that start later than the program: within the shell's limits, or the
+/// process ends in the same way. One at a time.
+class LibrariesStart {
+  public:
+    LibrariesStart();
+    ~LibrariesStart();
+};
+
 }  // namespace triad

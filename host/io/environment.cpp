@@ -11,8 +11,8 @@
 #include "base/memory_limit.h"
 #include "io/exr_header.h"
 #include "io/image_container.h"
+#include "io/image_formats.h"
 #include "io/io.h"
-#include "io/oiio.h"
 
 namespace triad {
 namespace {
@@ -46,26 +46,29 @@ EnvironmentMap load_environment(const std::filesystem::path& path, bool strict) 
     } else {
         throw Error(Exit::scene, "Environment " + name + " is neither Radiance .hdr nor OpenEXR.");
     }
-    oiio::Input input(name, format == ImageFormat::exr ? "openexr" : "hdr", bytes);
-    const OIIO::ImageSpec& spec = input.spec();
-    const auto rgb = colour_channels(name, spec.channelnames);
-    EnvironmentMap map{unsigned(spec.width), unsigned(spec.height), {}};
+    const auto reader =
+        image_formats::loaded().read(name, format == ImageFormat::exr ? "openexr" : "hdr", bytes);
+    const image_formats::Layout& layout = reader->layout();
+    const std::size_t channels = layout.channels.size();
+    const auto rgb = colour_channels(name, layout.channels);
+    EnvironmentMap map{layout.width, layout.height, {}};
     require_memory(std::uint64_t(map.width) * map.height * 3 * sizeof(float), "Environment " + name);
     map.rgb.reserve(std::size_t(map.width) * map.height * 3);
     std::size_t repaired = 0;
-    input.read_bands(OIIO::TypeDesc::FLOAT, [&](unsigned, unsigned rows, const std::uint8_t* values) {
+    const auto take = [&](unsigned, unsigned rows, const std::uint8_t* values) {
         for (std::size_t i = 0; i < std::size_t(rows) * map.width; ++i) {
             bool bad = false;
             for (const std::size_t c : rgb) {
                 float v;
-                std::memcpy(&v, values + (i * std::size_t(spec.nchannels) + c) * sizeof v, sizeof v);
+                std::memcpy(&v, values + (i * channels + c) * sizeof v, sizeof v);
                 const bool good = v >= 0.0f && std::isfinite(v);
                 bad = bad || !good;
                 map.rgb.push_back(good ? v : 0.0f);
             }
             repaired += bad;
         }
-    });
+    };
+    reader->read_bands(image_formats::Sample::f32, take);
     const std::string fault = "environment " + name + ": " + std::to_string(repaired) +
                               " texels are negative or not finite; those values are taken as 0";
     if (repaired > 0 && strict) throw Error(Exit::scene, fault + " without --strict.");

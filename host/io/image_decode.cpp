@@ -5,11 +5,13 @@
 #include "base/error.h"
 #include "base/memory_limit.h"
 #include "io/image_container.h"
+#include "io/image_formats.h"
 #include "io/io.h"
-#include "io/oiio.h"
 
 namespace triad {
 namespace {
+
+using image_formats::Sample;
 
 /// One row of 1 to 4 channels to RGBA: grey is repeated, missing alpha is opaque.
 template <class T>
@@ -26,12 +28,13 @@ void expand(const T* from, unsigned channels, std::size_t pixels, T* to) {
 /// Replaces the colours of a WebP image with alpha, which come multiplied by it, by the stored ones.
 void restore_webp_colours(Image& image, const std::vector<std::uint8_t>& bytes) {
     const CleanImage colour = clean_webp_colour(image.name, bytes);
-    oiio::Input input(image.name, "webp", colour.bytes);
-    const unsigned n = unsigned(input.spec().nchannels);
-    if (n < 3 || unsigned(input.spec().width) != image.width || unsigned(input.spec().height) != image.height)
+    const auto reader = image_formats::loaded().read(image.name, "webp", colour.bytes);
+    const image_formats::Layout& layout = reader->layout();
+    const std::size_t n = layout.channels.size();
+    if (n < 3 || layout.width != image.width || layout.height != image.height)
         throw Error(Exit::scene,
                     "Image " + image.name + " cannot be read: its colours and its alpha differ in size.");
-    input.read_bands(OIIO::TypeDesc::UINT8, [&](unsigned first, unsigned rows, const std::uint8_t* values) {
+    reader->read_bands(Sample::u8, [&](unsigned first, unsigned rows, const std::uint8_t* values) {
         std::uint8_t* to = image.texels.data() + std::size_t(first) * image.width * 4;
         for (std::size_t i = 0; i < std::size_t(rows) * image.width; ++i, values += n, to += 4)
             std::copy_n(values, 3, to);
@@ -46,31 +49,32 @@ Image decode_image(const std::string& name, const std::vector<std::uint8_t>& byt
                          : clean.format == ImageFormat::jpeg ? "jpeg"
                                                              : "webp";
     require_memory(std::uint64_t(clean.width) * clean.height * 4, "Image " + name);
-    oiio::Input input(name, format, clean.bytes);
-    const OIIO::ImageSpec& spec = input.spec();
-    if (unsigned(spec.width) != clean.width || unsigned(spec.height) != clean.height || spec.nchannels > 4)
+    const auto reader = image_formats::loaded().read(name, format, clean.bytes);
+    const image_formats::Layout& layout = reader->layout();
+    const unsigned channels = unsigned(layout.channels.size());
+    if (layout.width != clean.width || layout.height != clean.height || channels > 4)
         throw Error(Exit::scene, "Image " + name + " cannot be read: its headers disagree about its size.");
 
-    Image image{name, clean.width, clean.height, spec.format == OIIO::TypeDesc::UINT16 ? 16u : 8u, {}};
+    Image image{name, clean.width, clean.height, layout.wide ? 16u : 8u, {}};
     const std::size_t row = std::size_t(image.width) * 4 * image.bits / 8;
-    const OIIO::TypeDesc type = image.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
     image.texels.reserve(row * image.height);
-    input.read_bands(type, [&](unsigned first, unsigned rows, const std::uint8_t* values) {
-        image.texels.resize(row * (first + rows));
-        std::uint8_t* to = image.texels.data() + row * first;
-        const std::size_t pixels = std::size_t(rows) * image.width;
-        if (image.bits == 16) {
-            expand(reinterpret_cast<const std::uint16_t*>(values), unsigned(spec.nchannels), pixels,
-                   reinterpret_cast<std::uint16_t*>(to));
-        } else {
-            expand(values, unsigned(spec.nchannels), pixels, to);
-        }
-    });
+    reader->read_bands(layout.wide ? Sample::u16 : Sample::u8,
+                       [&](unsigned first, unsigned rows, const std::uint8_t* values) {
+                           image.texels.resize(row * (first + rows));
+                           std::uint8_t* to = image.texels.data() + row * first;
+                           const std::size_t pixels = std::size_t(rows) * image.width;
+                           if (image.bits == 16) {
+                               expand(reinterpret_cast<const std::uint16_t*>(values), channels, pixels,
+                                      reinterpret_cast<std::uint16_t*>(to));
+                           } else {
+                               expand(values, channels, pixels, to);
+                           }
+                       });
     if (damage) {
-        *damage = input.complaint();
+        *damage = reader->complaint();
         if (damage->empty() && clean.ends_early) *damage = "it ends before its end marker";
     }
-    if (clean.format == ImageFormat::webp && spec.nchannels == 4) restore_webp_colours(image, bytes);
+    if (clean.format == ImageFormat::webp && channels == 4) restore_webp_colours(image, bytes);
     return image;
 }
 

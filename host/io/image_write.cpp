@@ -1,6 +1,7 @@
 /// Pictures to EXR, PNG, JPEG and HDR. Everything is encoded in memory and then written aside, so that a full
 /// disk is noticed before an older file is replaced.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -11,11 +12,15 @@
 #include "base/colour.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "io/image_formats.h"
 #include "io/io.h"
-#include "io/oiio.h"
 
 namespace triad {
 namespace {
+
+using image_formats::Outline;
+using image_formats::Sample;
+using image_formats::Value;
 
 void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
     write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
@@ -36,38 +41,24 @@ const std::set<std::string> numbers{
     "triad:max_texture", "triad:exposure",  "triad:pose_time", "triad:perceived_noise"};
 
 /// pbrt-v4's names keep pbrt-v4's types (util/image.cpp), OpenEXR's have its own; other texts are strings.
-void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const std::string& value) {
-    if (numbers.contains(name)) {
-        const double number = std::strtod(value.c_str(), nullptr);
-        spec.attribute(name, OIIO::TypeDesc::DOUBLE, &number);
-    } else if (name == "capDate") {  // universal time
-        spec.attribute("DateTime", value);
-        spec.attribute("utcOffset", 0.0f);
-    } else if (name == "renderTimeSeconds" || name == "MSE") {
-        spec.attribute(name, std::strtof(value.c_str(), nullptr));
-    } else if (name == "samplesPerPixel") {
-        spec.attribute(name, int(std::strtol(value.c_str(), nullptr, 10)));
-    } else if (name == "worldToCamera" || name == "worldToNDC") {
-        float m[16];
-        const char* at = value.c_str();
-        for (float& v : m) {
-            char* end;
-            v = std::strtof(at, &end);
-            at = end;
-        }
-        spec.attribute(name, OIIO::TypeMatrix, m);
-    } else {
-        spec.attribute(name, value);
+Value typed(const std::string& name, const std::string& value) {
+    const char* text = value.c_str();
+    if (numbers.contains(name)) return std::strtod(text, nullptr);
+    if (name == "renderTimeSeconds" || name == "MSE") return std::strtof(text, nullptr);
+    if (name == "samplesPerPixel") return int(std::strtol(text, nullptr, 10));
+    if (name != "worldToCamera" && name != "worldToNDC") return value;
+    std::array<float, 16> matrix;
+    for (float& v : matrix) {
+        char* end;
+        v = std::strtof(text, &end);
+        text = end;
     }
+    return matrix;
 }
 
 /// What R, G and B are: the primaries of Rec. 709 and sRGB with their white, D65. Drives of a panel are
 /// colours of its own emitters.
-void add_chromaticities(OIIO::ImageSpec& spec, const Picture& picture) {
-    constexpr float rec709[] = {.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f};
-    if (picture.find("R") && !picture.metadata.contains("triad:panel"))
-        spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
-}
+constexpr std::array<float, 8> rec709{.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f};
 
 /// The channels side by side, interleaved. Throws std::logic_error when a channel has not one value per
 /// pixel.
@@ -119,30 +110,33 @@ std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half, std::siz
     for (const Channel& channel : picture.channels) channels.push_back(&channel);
     std::vector<float> values = interleave(picture, channels);
 
-    OIIO::ImageSpec spec(int(picture.width), int(picture.height), int(channels.size()),
-                         OIIO::TypeDesc::FLOAT);
-    spec.x = int(picture.x), spec.y = int(picture.y);
-    spec.full_width = int(picture.full_width ? picture.full_width : picture.width);
-    spec.full_height = int(picture.full_height ? picture.full_height : picture.height);
-    spec.channelnames.clear();
-    spec.alpha_channel = spec.z_channel = -1;
+    Outline outline{picture.width, picture.height,     unsigned(channels.size()), picture.x,
+                    picture.y,     picture.full_width, picture.full_height};
     std::size_t count = 0;
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const bool narrow = half && !must_be_float(channels[c]->name);
-        spec.channelnames.push_back(channels[c]->name);
-        spec.channelformats.push_back(narrow ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT);
-        if (channels[c]->name == "A") spec.alpha_channel = int(c);
+        outline.names.emplace_back(channels[c]->name, narrow ? Sample::f16 : Sample::f32);
+        if (channels[c]->name == "A") outline.alpha = int(c);
         constexpr float half_max = 65504.0f;
         for (std::size_t i = c; narrow && i < values.size(); i += channels.size())
             if (std::abs(values[i]) > half_max) values[i] = std::copysign(half_max, values[i]), ++count;
     }
-    spec.attribute("compression", "zip");
-    spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("DateTime", "");  // else the writer adds the time: equal pictures have equal bytes
-    for (const auto& [name, value] : picture.metadata) add_attribute(spec, name, value);
-    add_chromaticities(spec, picture);
+    auto& attributes = outline.attributes;
+    attributes = {{"compression", "zip"}, {"oiio:ColorSpace", "Linear"}};
+    // Else the writer adds the time: equal pictures have equal bytes.
+    attributes.emplace_back("DateTime", "");
+    for (const auto& [name, value] : picture.metadata) {
+        if (name != "capDate") {
+            attributes.emplace_back(name, typed(name, value));
+            continue;
+        }
+        attributes.emplace_back("DateTime", value);  // universal time
+        attributes.emplace_back("utcOffset", 0.0f);
+    }
+    if (picture.find("R") && !picture.metadata.contains("triad:panel"))
+        attributes.emplace_back("chromaticities", rec709);
     if (saturated) *saturated = count;
-    return oiio::encode("openexr", spec, OIIO::TypeDesc::FLOAT, values.data());
+    return image_formats::loaded().encode("openexr", outline, Sample::f32, values.data());
 }
 
 std::vector<std::uint8_t> encode_hdr(const Picture& picture) {
@@ -157,9 +151,8 @@ std::vector<std::uint8_t> encode_hdr(const Picture& picture) {
     constexpr float rgbe_max = 1.6e38f;  // below 2^127: the exponent byte of RGBE ends there
     for (float& v : values)
         v = v > 0.0f ? std::min(v, rgbe_max) : 0.0f;  // NaN and negatives: RGBE has neither
-    return oiio::encode("hdr",
-                        OIIO::ImageSpec(int(picture.width), int(picture.height), 3, OIIO::TypeDesc::FLOAT),
-                        OIIO::TypeDesc::FLOAT, values.data());
+    return image_formats::loaded().encode("hdr", {picture.width, picture.height, 3}, Sample::f32,
+                                          values.data());
 }
 
 std::vector<std::uint8_t> encode_picture(const std::string& extension, const EncodedPicture& given) {
@@ -180,21 +173,21 @@ std::vector<std::uint8_t> encode_picture(const std::string& extension, const Enc
 
     const EncodedPicture converted = jpeg ? for_jpeg(given) : EncodedPicture{};
     const EncodedPicture& picture = jpeg ? converted : given;
-    const OIIO::TypeDesc type = picture.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-    OIIO::ImageSpec spec(int(picture.width), int(picture.height), int(picture.channels), type);
-    spec.alpha_channel = picture.channels == 4 ? 3 : -1;
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    if (jpeg) {
-        spec.attribute("Compression", "jpeg:95");
-        spec.attribute("jpeg:subsampling", "4:4:4");
-        std::string text;
-        for (const auto& [name, value] : picture.metadata) text += name + "=" + value + "\n";
-        if (!text.empty()) spec.attribute("ImageDescription", text);
-    } else {
-        for (const auto& [name, value] : picture.metadata) spec.attribute(name, value);
-    }
-    return oiio::encode(jpeg ? "jpeg" : "png", spec, type, picture.bytes.data());
+    Outline outline{picture.width, picture.height, picture.channels};
+    outline.alpha = picture.channels == 4 ? 3 : -1;
+    auto& attributes = outline.attributes;
+    attributes = {{"oiio:UnassociatedAlpha", 1}, {"oiio:ColorSpace", "sRGB"}};
+    std::string text;
+    for (const auto& [name, value] : picture.metadata)
+        if (jpeg)
+            text += name + "=" + value + "\n";
+        else
+            attributes.emplace_back(name, value);
+    if (jpeg)
+        attributes.insert(attributes.end(), {{"Compression", "jpeg:95"}, {"jpeg:subsampling", "4:4:4"}});
+    if (!text.empty()) attributes.emplace_back("ImageDescription", text);
+    return image_formats::loaded().encode(
+        jpeg ? "jpeg" : "png", outline, picture.bits == 16 ? Sample::u16 : Sample::u8, picture.bytes.data());
 }
 
 std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half) {

@@ -6,29 +6,30 @@
 #include "base/log.h"
 #include "io/exr_header.h"
 #include "io/image_container.h"
+#include "io/image_formats.h"
 #include "io/io.h"
-#include "io/oiio.h"
 
 namespace triad {
 namespace {
 
 Picture read_channels(const std::string& name, const char* format, std::span<const std::uint8_t> bytes) {
-    oiio::Input input(name, format, bytes);
-    const OIIO::ImageSpec& spec = input.spec();
+    const auto reader = image_formats::loaded().read(name, format, bytes);
+    const image_formats::Layout& layout = reader->layout();
     Picture picture;
-    picture.width = unsigned(spec.width), picture.height = unsigned(spec.height);
-    const std::size_t n = std::size_t(spec.nchannels);
-    for (const std::string& channel : spec.channelnames) picture.channels.push_back({channel, {}});
+    picture.width = layout.width, picture.height = layout.height;
+    const std::size_t n = layout.channels.size();
+    for (const std::string& channel : layout.channels) picture.channels.push_back({channel, {}});
     // Integer formats come scaled to [0, 1]: that is what OpenImageIO does on the way to float.
-    input.read_bands(OIIO::TypeDesc::FLOAT, [&](unsigned, unsigned rows, const std::uint8_t* values) {
+    const auto take = [&](unsigned, unsigned rows, const std::uint8_t* values) {
         for (std::size_t c = 0; c < n; ++c)
             for (std::size_t p = 0; p < std::size_t(rows) * picture.width; ++p) {
                 float v;
                 std::memcpy(&v, values + (p * n + c) * sizeof v, sizeof v);
                 picture.channels[c].values.push_back(v);
             }
-    });
-    if (const std::string damage = input.complaint(); !damage.empty())
+    };
+    reader->read_bands(image_formats::Sample::f32, take);
+    if (const std::string damage = reader->complaint(); !damage.empty())
         warn("Image " + name + " is damaged (" + damage + "); what could be decoded of it is used.");
     return picture;
 }

@@ -35,6 +35,7 @@ const std::map<std::string, Names> below = [] {
         {"capture", {"device", "base"}},
         {"scene", {"base"}},
         {"io", {"scene", "base"}},
+        {"images", {"io", "base"}},
         {"bvh", {"base"}},
         {"panel", {"base"}},
         {"pack", data},
@@ -58,7 +59,7 @@ const std::map<std::string, Names> below = [] {
 
 /// Packages and their owners: how their headers begin.
 const std::map<std::string, Names> owners = {
-    {"CL/", {"device"}},   {"tiny_gltf", {"io"}},     {"OpenImageIO/", {"io"}},
+    {"CL/", {"device"}},   {"tiny_gltf", {"io"}},     {"OpenImageIO/", {"images"}},
     {"draco/", {"io"}},    {"meshoptimizer", {"io"}}, {"CLI/", {"cli", "replay", "api"}},
     {"xxhash", {"base"}},  {"glm/", {"base"}},        {"fftw3", {"panel"}},
     {"zstd", {"capture"}}, {"httplib", {"viewer"}},   {"pybind11/", {"python"}}};

@@ -1,4 +1,4 @@
-// triad-replay is carried to machines that have a driver and nothing else: what it asks the loader for.
+// What programs ask the loader for. triad-replay is carried to machines that have a driver and nothing else.
 #include <elf.h>
 #include <gtest/gtest.h>
 
@@ -50,4 +50,10 @@ TEST(ReplayLinks, name_an_opencl_loader_and_the_c_runtime_alone) {
     EXPECT_TRUE(names.contains("libOpenCL.so.1"));
     for (const std::string& name : names) EXPECT_TRUE(allowed.contains(name)) << name;
     EXPECT_TRUE(needed_by(TRIAD_PROGRAM).contains("libstdc++.so.6"));  // else the reader reads nothing
+}
+
+/// Its 230 libraries take longer to start than a small picture takes.
+TEST(ProgramLinks, start_without_openimageio) {
+    for (const std::string& name : needed_by(TRIAD_PROGRAM))
+        EXPECT_EQ(name.find("OpenImageIO"), std::string::npos) << name;
 }

@@ -1,12 +1,29 @@
-#include "io/oiio.h"
+/// The library triad-images: io/image_formats.h by OpenImageIO, with its failures as sentences.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <new>
 
 #include "base/error.h"
+#include "io/image_formats.h"
 
-namespace triad::oiio {
+namespace triad::image_formats {
 namespace {
+
+OIIO::TypeDesc type_of(Sample sample) {
+    switch (sample) {
+        case Sample::u8:
+            return OIIO::TypeDesc::UINT8;
+        case Sample::u16:
+            return OIIO::TypeDesc::UINT16;
+        case Sample::f16:
+            return OIIO::TypeDesc::HALF;
+        case Sample::f32:
+            break;
+    }
+    return OIIO::TypeDesc::FLOAT;
+}
 
 /// OpenImageIO's message as one sentence: its first line, without a full stop.
 std::string first_line(std::string text) {
@@ -15,11 +32,26 @@ std::string first_line(std::string text) {
     return text.empty() ? "no reason given" : text;
 }
 
-}  // namespace
+class Input : public Reader {
+  public:
+    Input(const std::string& name, const char* format, std::span<const std::uint8_t> bytes);
 
-void Input::fail(const std::string& what) {
-    throw Error(Exit::scene, "Image " + name_ + " cannot be read: " + first_line(what) + ".");
-}
+    const Layout& layout() const override { return layout_; }
+    void read_bands(Sample as,
+                    const std::function<void(unsigned, unsigned, const std::uint8_t*)>& take) override;
+    std::string complaint() override;
+
+  private:
+    [[noreturn]] void fail(const std::string& what) const {
+        throw Error(Exit::scene, "Image " + name_ + " cannot be read: " + first_line(what) + ".");
+    }
+
+    std::string name_;
+    OIIO::Filesystem::IOMemReader memory_;
+    std::unique_ptr<OIIO::ImageInput> input_;
+    OIIO::ImageSpec spec_;
+    Layout layout_;
+};
 
 Input::Input(const std::string& name, const char* format, std::span<const std::uint8_t> bytes)
     : name_(name),
@@ -38,6 +70,8 @@ Input::Input(const std::string& name, const char* format, std::span<const std::u
     }
     if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels <= 0)
         fail("it has no flat picture");
+    layout_ = {unsigned(spec_.width), unsigned(spec_.height), spec_.channelnames,
+               spec_.format == OIIO::TypeDesc::UINT16};
 }
 
 std::string Input::complaint() {
@@ -49,8 +83,8 @@ std::string Input::complaint() {
     return text;
 }
 
-void Input::read_bands(OIIO::TypeDesc type,
-                       const std::function<void(unsigned, unsigned, const std::uint8_t*)>& take) {
+void Input::read_bands(Sample as, const std::function<void(unsigned, unsigned, const std::uint8_t*)>& take) {
+    const OIIO::TypeDesc type = type_of(as);
     const std::size_t row = std::size_t(spec_.width) * spec_.nchannels * type.size();
     const bool tiled = spec_.tile_width > 0;
     const int band = tiled ? spec_.tile_height : 64;
@@ -82,6 +116,36 @@ void Input::read_bands(OIIO::TypeDesc type,
     }
 }
 
+void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const Value& value) {
+    if (const auto* whole = std::get_if<int>(&value))
+        spec.attribute(name, *whole);
+    else if (const auto* single = std::get_if<float>(&value))
+        spec.attribute(name, *single);
+    else if (const auto* number = std::get_if<double>(&value))
+        spec.attribute(name, OIIO::TypeDesc::DOUBLE, number);
+    else if (const auto* text = std::get_if<std::string>(&value))
+        spec.attribute(name, *text);
+    else if (const auto* primaries = std::get_if<std::array<float, 8>>(&value))
+        spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), primaries->data());
+    else
+        spec.attribute(name, OIIO::TypeMatrix, std::get<std::array<float, 16>>(value).data());
+}
+
+OIIO::ImageSpec spec_of(const Outline& outline, Sample given) {
+    OIIO::ImageSpec spec(int(outline.width), int(outline.height), int(outline.channels), type_of(given));
+    spec.x = int(outline.x), spec.y = int(outline.y);
+    spec.full_width = int(outline.full_width ? outline.full_width : outline.width);
+    spec.full_height = int(outline.full_height ? outline.full_height : outline.height);
+    spec.alpha_channel = outline.alpha;
+    if (!outline.names.empty()) spec.channelnames.clear(), spec.z_channel = -1;
+    for (const auto& [name, sample] : outline.names) {
+        spec.channelnames.push_back(name);
+        spec.channelformats.push_back(type_of(sample));
+    }
+    for (const auto& [name, value] : outline.attributes) add_attribute(spec, name, value);
+    return spec;
+}
+
 std::vector<std::uint8_t> encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                                  const void* values) {
     const auto fail = [&](const std::string& what) {
@@ -107,4 +171,22 @@ std::vector<std::uint8_t> encode(const char* format, const OIIO::ImageSpec& spec
     return bytes;
 }
 
-}  // namespace triad::oiio
+class OpenImageIo : public Formats {
+    std::unique_ptr<Reader> read(const std::string& name, const char* format,
+                                 std::span<const std::uint8_t> bytes) const override {
+        return std::make_unique<Input>(name, format, bytes);
+    }
+    std::vector<std::uint8_t> encode(const char* format, const Outline& outline, Sample given,
+                                     const void* values) const override {
+        return image_formats::encode(format, spec_of(outline, given), type_of(given), values);
+    }
+};
+
+}  // namespace
+}  // namespace triad::image_formats
+
+/// The one name that the library shows.
+extern "C" [[gnu::visibility("default")]] const triad::image_formats::Formats& triad_image_formats() {
+    static const triad::image_formats::OpenImageIo formats;
+    return formats;
+}

@@ -1,0 +1,39 @@
+#include "io/image_formats.h"
+
+#include <dlfcn.h>
+
+#include "base/error.h"
+#include "base/shell_limits.h"
+
+namespace triad::image_formats {
+namespace {
+
+using Entry = const Formats& (*)();
+
+/// Found beside what asks for it, by the paths that the build and the installation write into programs and
+/// libraries. Its names are bound when they are used, and are nobody else's.
+const Formats& load() {
+    void* library;
+    {
+        const LibrariesStart start;
+        library = ::dlopen("triad-images.so", RTLD_LAZY | RTLD_LOCAL);
+    }
+    void* entry = library ? ::dlsym(library, "triad_image_formats") : nullptr;
+    if (entry) return reinterpret_cast<Entry>(entry)();
+    const std::string reason = ::dlerror(), limits = shell_limits();
+    if (!limits.empty())
+        throw Error(Exit::memory,
+                    "The libraries that read and write pictures cannot start within what the shell allows (" +
+                        limits + "): " + reason + ". Raise the limit.");
+    throw Error(Exit::scene, "Pictures can be neither read nor written: " + reason +
+                                 ". Install Triad again, with the packages that it depends on.");
+}
+
+}  // namespace
+
+const Formats& loaded() {
+    static const Formats& formats = load();
+    return formats;
+}
+
+}  // namespace triad::image_formats
