@@ -11,6 +11,10 @@ namespace triad {
 void allow_restarts(char** argv);
 bool restarts_allowed();
 
+/// For a program's own abort(), which libraries call, too: a new life if there is a Peril, else the end. The
+/// signal alone is not enough: LLVM catches it after a Peril does, when it is loaded.
+[[noreturn]] void end_by_abort();
+
 struct Death {
     std::string note;   ///< of the Peril
     std::string cause;  ///< a phrase: "signal 6 (Aborted)"

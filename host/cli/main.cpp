@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/program.h"
+#include "base/restart.h"
 #include "base/shell_limits.h"
 #include "base/text.h"
 #include "cli/command_line.h"
@@ -57,6 +58,8 @@ int run(int argc, char** argv) {
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = heed_shell_limits;
 
 }  // namespace
+
+extern "C" [[noreturn]] void abort() noexcept { end_by_abort(); }
 
 int main(int argc, char** argv) {
     libraries_have_started();

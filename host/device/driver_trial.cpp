@@ -14,6 +14,7 @@
 #include "base/child.h"
 #include "base/files.h"
 #include "base/log.h"
+#include "base/shell_limits.h"
 #include "base/temporary_folder.h"
 #include "device/drivers.h"
 #include "device/opencl.h"
@@ -199,12 +200,15 @@ const std::vector<PlatformProblem>& load_drivers() {
         place_pocl_cache(icds);
         const auto died = [](const Death& death) { return death.note == listing_note; };
         const auto deaths = std::ranges::count_if(earlier_deaths(), died);
-        if (deaths > 1)
+        if (deaths > 1) {
+            const std::string limits = shell_limits();
             throw Error(Exit::device,
                         "The OpenCL drivers take this program down when they are loaded, by " +
                             earlier_deaths().back().cause +
                             ", but did not when they were tried. OCL_ICD_VENDORS=NAME.icd picks one of "
-                            "/etc/OpenCL/vendors.");
+                            "/etc/OpenCL/vendors." +
+                            (limits.empty() ? "" : " The shell's limits (" + limits + ") may be why."));
+        }
         const Problems bad = bad_ones(icds, deaths == 0);
         if (!bad.empty()) {
             std::vector<Icd> good;

@@ -11,13 +11,15 @@ namespace {
 using Entry = const Formats& (*)();
 
 /// Found beside what asks for it, by the paths that the build and the installation write into programs and
-/// libraries. Its names are bound when they are used, and are nobody else's.
+/// libraries. Its names are bound when they are used, and are nobody else's. noexcept: what an initialiser
+/// throws would leave libraries behind that have half started.
+void* open_library() noexcept {
+    const LibrariesStart start;
+    return ::dlopen("triad-images.so", RTLD_LAZY | RTLD_LOCAL);
+}
+
 const Formats& load() {
-    void* library;
-    {
-        const LibrariesStart start;
-        library = ::dlopen("triad-images.so", RTLD_LAZY | RTLD_LOCAL);
-    }
+    void* library = open_library();
     void* entry = library ? ::dlsym(library, "triad_image_formats") : nullptr;
     if (entry) return reinterpret_cast<Entry>(entry)();
     const std::string reason = ::dlerror(), limits = shell_limits();

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "io/image_formats.h"
 #include "io/io.h"
+#include "io/png_write.h"
 
 namespace triad {
 namespace {
@@ -105,6 +106,8 @@ const Channel* Picture::find(const std::string& name) const {
     return at == channels.end() ? nullptr : &*at;
 }
 
+void load_picture_formats() { image_formats::loaded(); }
+
 std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half, std::size_t* saturated) {
     std::vector<const Channel*> channels;
     for (const Channel& channel : picture.channels) channels.push_back(&channel);
@@ -171,23 +174,19 @@ std::vector<std::uint8_t> encode_picture(const std::string& extension, const Enc
     if (jpeg && std::max(given.width, given.height) > 65500)
         throw Error(Exit::usage, "A JPEG has at most 65500 pixels in a row or column; write .png or .exr.");
 
-    const EncodedPicture converted = jpeg ? for_jpeg(given) : EncodedPicture{};
-    const EncodedPicture& picture = jpeg ? converted : given;
+    if (!jpeg) return encode_png(given);
+
+    const EncodedPicture picture = for_jpeg(given);
     Outline outline{picture.width, picture.height, picture.channels};
-    outline.alpha = picture.channels == 4 ? 3 : -1;
     auto& attributes = outline.attributes;
-    attributes = {{"oiio:UnassociatedAlpha", 1}, {"oiio:ColorSpace", "sRGB"}};
+    attributes = {{"oiio:UnassociatedAlpha", 1},
+                  {"oiio:ColorSpace", "sRGB"},
+                  {"Compression", "jpeg:95"},
+                  {"jpeg:subsampling", "4:4:4"}};
     std::string text;
-    for (const auto& [name, value] : picture.metadata)
-        if (jpeg)
-            text += name + "=" + value + "\n";
-        else
-            attributes.emplace_back(name, value);
-    if (jpeg)
-        attributes.insert(attributes.end(), {{"Compression", "jpeg:95"}, {"jpeg:subsampling", "4:4:4"}});
+    for (const auto& [name, value] : picture.metadata) text += name + "=" + value + "\n";
     if (!text.empty()) attributes.emplace_back("ImageDescription", text);
-    return image_formats::loaded().encode(
-        jpeg ? "jpeg" : "png", outline, picture.bits == 16 ? Sample::u16 : Sample::u8, picture.bytes.data());
+    return image_formats::loaded().encode("jpeg", outline, Sample::u8, picture.bytes.data());
 }
 
 std::size_t write_exr(const std::filesystem::path& path, const Picture& picture, bool half) {

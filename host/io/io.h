@@ -1,5 +1,5 @@
 #pragma once
-/// Files in and out. The only folder that includes tinygltf or OpenImageIO.
+/// Files in and out. The only folder that includes tinygltf.
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -75,6 +75,10 @@ std::size_t write_exr(const std::filesystem::path& path, const Picture& picture,
 /// The same file as bytes, for standard output.
 std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false,
                                      std::size_t* saturated = nullptr);
+
+/// Loads what pictures but PNG need to be written, before a long work instead of after it. Throws
+/// Error(scene).
+void load_picture_formats();
 
 /// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits in host order, alpha linear and
 /// unassociated) to .png or .jpg by extension. JPEG gets 8 bits, on black. Throws Error(usage) for another

@@ -75,6 +75,11 @@ bool is_exr(const std::string& path) { return extension_of(path) == ".exr"; }
 
 bool is_linear(const std::string& path) { return is_linear_format(extension_of(path)); }
 
+void prepare_to_write(const std::vector<std::string>& paths) {
+    for (const std::string& path : paths)
+        if (extension_of(path) != ".png") load_picture_formats();
+}
+
 bool is_picture(const std::string& path) {
     const std::string extension = extension_of(path);
     for (const char* known : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})

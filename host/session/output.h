@@ -24,6 +24,9 @@ struct OutputStyle {
     Denoiser denoise = Denoiser::off;
 };
 
+/// Loads what these pictures need to be written: before a long work, not after it. Throws Error(scene).
+void prepare_to_write(const std::vector<std::string>& paths);
+
 bool is_exr(const std::string& path);
 /// Whether the extension is that of a picture.
 bool is_picture(const std::string& path);

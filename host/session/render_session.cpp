@@ -39,6 +39,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 RenderRequest checked(RenderRequest request) {
     complete(request);
     check_outputs(request.outputs_named(), request.inputs_named());
+    prepare_to_write(request.outputs);
     const std::string& film = request.film_path;
     if (is_file(film) && !is_same_file(film, request.resume_path))
         throw Error(Exit::usage, "The film " + film + " is there already: triad render --resume " + film +

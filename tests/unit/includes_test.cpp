@@ -58,11 +58,19 @@ const std::map<std::string, Names> below = [] {
 }();
 
 /// Packages and their owners: how their headers begin.
-const std::map<std::string, Names> owners = {
-    {"CL/", {"device"}},   {"tiny_gltf", {"io"}},     {"OpenImageIO/", {"images"}},
-    {"draco/", {"io"}},    {"meshoptimizer", {"io"}}, {"CLI/", {"cli", "replay", "api"}},
-    {"xxhash", {"base"}},  {"glm/", {"base"}},        {"fftw3", {"panel"}},
-    {"zstd", {"capture"}}, {"httplib", {"viewer"}},   {"pybind11/", {"python"}}};
+const std::map<std::string, Names> owners = {{"CL/", {"device"}},
+                                             {"tiny_gltf", {"io"}},
+                                             {"OpenImageIO/", {"images"}},
+                                             {"png.h", {"io"}},
+                                             {"draco/", {"io"}},
+                                             {"meshoptimizer", {"io"}},
+                                             {"CLI/", {"cli", "replay", "api"}},
+                                             {"xxhash", {"base"}},
+                                             {"glm/", {"base"}},
+                                             {"fftw3", {"panel"}},
+                                             {"zstd", {"capture"}},
+                                             {"httplib", {"viewer"}},
+                                             {"pybind11/", {"python"}}};
 
 /// Which folders of kernels/ the headers of a folder may include from, beside itself and common. Programs
 /// (.cl) compose them all.
