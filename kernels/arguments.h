@@ -37,7 +37,7 @@
           light_trails)     /* of Lights: which child the way from the root takes, bits 3 k up at depth k */ \
     ARRAY(uint, env_texels) /* ENVIRONMENT_RGBE or ENVIRONMENT_FLOAT */                                      \
     ARRAY(uint, env_rows)   /* tree of shape environment.rows */                                             \
-    ARRAY(ushort, env_columns) /* trees of shape environment.columns */                                      \
+    ARRAY(ushort, env_columns) /* trees of shape environment.columns; FACINGS x FACINGS tables of shares */  \
     ARRAY(float, env_cosines)  /* height + 1: of the polar angle of the rows' borders */                     \
     ARRAY(Spectrum, spectrum)                                                                                \
     ARRAY(float, indices)    /* tables of (n, its change to the next row), SPECTRUM_ROWS */                  \

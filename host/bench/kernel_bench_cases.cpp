@@ -42,7 +42,7 @@ const char* const made = R"(
 )";
 const char* const evaluated = R"(
     float pdf;
-    const Colour f = bsdf_eval(&b, wo, vec3_make(IN(7), IN(8), IN(9)), &pdf);
+    const Colour f = bsdf_eval(&b, wo, vec3_make(IN(7), IN(8), IN(9)), 0u, &pdf);
     OUT3(0, f);
     OUT(3, pdf);
 )";

@@ -144,6 +144,53 @@ void light_picks(Check& check) {
     check.at_most(chi_square_z(counts, expected), chi_square_limit, "chi-square of picks");
 }
 
+void environment_by_facing(Check& check) {
+    constexpr std::size_t patches = PATCHES * PATCHES;
+    for (const bool even : {false, true}) {
+        const PackedScene packed = packed_under(
+            even ? EnvironmentMap{32, 16, std::vector<float>(32 * 16 * 3, 1.0f)} : hard_map(1100, 40, 20.0f));
+        const std::size_t count = check.count(1 << 20);
+        const auto drawn = draw_lights(check, packed, R"(
+    const Environment e = scene.frame->environment;
+    const float k = (float)(i & 7u);
+    const Vec3 n = sampling_sphere(vec2_make(0.0625f + 0.125f * k, 0.05f + 0.12f * k));
+    const uint facing = facing_of(n);
+    float factor;
+    Vec2 uv;
+    const UVec2 warped = facing_warp(&scene, facing, u.set[0], &factor);
+    const Vec3 d = environment_sample(&scene, &e, warped, &uv);
+    const uint patch = (warped.y >> (32u - PATCH_BITS)) * PATCHES + (warped.x >> (32u - PATCH_BITS));
+    w = vec4_make(factor, facing_found(&scene, facing, d, uv), vec3_dot(n, d),
+                  (float)((facing - 1u) * PATCHES * PATCHES + patch));
+)",
+                                       count);
+        std::vector<double> counts(FACINGS * FACINGS * patches), expected(counts.size());
+        std::vector<double> of_facing(FACINGS * FACINGS);
+        double below = 0, differ = 0;
+        for (const auto& d : drawn) {
+            check.also_at_most(d[3], double(counts.size() - 1), "facing and patch");
+            if (!(d[3] >= 0 && d[3] < float(counts.size()))) continue;
+            counts[std::size_t(d[3])] += 1, of_facing[std::size_t(d[3]) / patches] += 1;
+            below += d[2] < 0;
+            differ += !(std::abs(d[1] - d[0]) <= 1e-5f * d[0]);
+        }
+        const std::uint16_t* facings = packed.surfaces->env_columns.data() + packed.environment.columns.size;
+        const auto share = [&](std::size_t first, std::size_t i) {
+            return (facings[first + i] + 1.0 - (i == 0 ? 0.0 : facings[first + i - 1] + 1.0)) / 65536;
+        };
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            const std::size_t first = i / patches * FACING_SHARES, row = i % patches / PATCHES;
+            expected[i] = of_facing[i / patches] * share(first, row) *
+                          share(first + PATCHES + row * PATCHES, i % PATCHES);
+        }
+        check.at_most(chi_square_z(counts, expected), chi_square_limit, "chi-square, map ", even);
+        // A patch's border belongs to either side as far as floats can tell.
+        check.at_most(differ / double(count), 2e-3, "factors that differ, map ", even);
+        // Half of them, were it not for facings.
+        if (even) check.at_most(below / double(count), 0.1, "directions from behind");
+    }
+}
+
 }  // namespace
 
 void add_light_samplers(std::vector<CheckCase>& cases) {
@@ -154,6 +201,7 @@ void add_light_samplers(std::vector<CheckCase>& cases) {
             {"C16", "chi-square of the environment with a sun", quick, cells_by_their_density},
             {"C16c", "densities of the environment integrate to 1", quick, densities_integrate_to_one},
             {"C16d", "every share finds its column", standard, column_of_every_share},
+            {"C16g", "the environment for where a surface faces", quick, environment_by_facing},
             {"S6", "chi-square of light picks", standard, light_picks},
         });
 }

@@ -25,7 +25,7 @@ __kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     const int lit = light_sample(&scene, receiver, pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
                     light_complete(&scene, &l);
     float pdf = 0.0f;
-    if (lit && l.distant) environment_radiance(&scene, l.direction, &pdf);
+    if (lit && l.distant) environment_radiance(&scene, l.direction, receiver.facing, &pdf);
     out[2 * i] = lit ? vec3_with(l.direction, l.inverse_pdf) : vec4_splat(0.0f);
     out[2 * i + 1] = lit ? vec4_make(pdf, l.weight.y, l.uv.x, l.uv.y) : vec4_splat(0.0f);
 }
@@ -35,7 +35,7 @@ __kernel void look(__global Vec4* out, SCENE_PARAMETERS, __global const float* d
     if (i >= count) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     float pdf;
-    const Vec3 radiance = environment_radiance(&scene, vec3_load(directions, i), &pdf);
+    const Vec3 radiance = environment_radiance(&scene, vec3_load(directions, i), 0u, &pdf);
     out[i] = vec3_with(radiance, pdf);
 }
 )";

@@ -157,6 +157,9 @@ struct LightColour {
 };
 LightColour light_colour(const PackedSurfaces& surfaces, const std::optional<LightSpectrum>& spectrum);
 
+/// The shares of patches of the map for every facing (types/lights.h). After the rows and columns.
+std::vector<std::uint16_t> facing_shares(const PackedSurfaces& surfaces);
+
 // Parts of pack(), one file each.
 void pack_geometry(const Scene& scene, const RenderSettings& settings, PackedScene& packed);
 void pack_materials(const Scene& scene, const RenderSettings& settings, PackedSurfaces& surfaces);

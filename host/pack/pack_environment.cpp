@@ -116,6 +116,8 @@ void pack_environment(const Scene& scene, const RenderSettings& settings, Packed
     for (std::size_t i = 0; i < w * h; ++i)
         densities[i] *= static_cast<float>((rows[i / w + 1] - rows[i / w]) / 4294967296.0);
     pack_texels(map, densities, surfaces);
+    const std::vector<std::uint16_t> facings = facing_shares(surfaces);
+    surfaces.env_columns.insert(surfaces.env_columns.end(), facings.begin(), facings.end());
 
     dvec3 mean(0.0);
     for (std::size_t y = 0; y < h; ++y)

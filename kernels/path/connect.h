@@ -25,15 +25,6 @@ typedef struct PendingLight {
 #endif
 } PendingLight;
 
-/* Before the ray of the edge is traced: what will be read to choose a direction in a map is asked for. */
-TRIAD_FUNCTION void connect_prefetch(const Scene* scene, const SamplerBlock* u) {
-#if TRIAD_ENVIRONMENT_MAP
-    if (scene->frame->environment.light != TRIAD_NONE) environment_prefetch_columns(scene, u->set[3]);
-#else
-    (void)scene, (void)u;
-#endif
-}
-
 /* Whether what lies in that direction is alpha, however it is found: the camera sees it through the surface.
  */
 TRIAD_FUNCTION int connect_is_alpha(const Scene* scene, const PathState* path, const Vertex* vertex,
@@ -78,7 +69,8 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
                                 PendingLight* pending) {
     const Surface* s = &vertex->surface;
     LightSample light;
-    if (!bsdf_has_smooth(&v->bsdf) || !light_sample_picked(scene, pick, s->position, u->set[3], &light))
+    if (!bsdf_has_smooth(&v->bsdf) ||
+        !light_sample_picked(scene, pick, path_receiver(path, s->position), u->set[3], &light))
         return 0;
     const float side = vec3_dot(light.direction, vertex->ng);
     const Vec3 wi = frame_to_local(&v->frame, light.direction);

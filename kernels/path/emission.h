@@ -23,8 +23,10 @@ TRIAD_FUNCTION void path_miss(const Scene* scene, PathState* path, const Hit* hi
         path->alpha -= path_share(&path->colours) * colour_average(path->throughput) / path_body_scale(path);
         return;
     }
+    const uint facing = path->pdf > 0.0f ? path_receiver(path, VEC3_OF(path->ray.origin)).facing : 0u;
     float light_pdf;
-    const Colour sky = path_colour(&path->colours, environment_radiance(scene, direction, &light_pdf));
+    const Colour sky =
+        path_colour(&path->colours, environment_radiance(scene, direction, facing, &light_pdf));
     float weight = path->pdf > 0.0f ? power_heuristic(light_pdf / path->pdf) : 1.0f;
     if (frame->environment.photons && path_leaves_to_photons(scene, path)) weight = 0.0f;
     path_finds(path, colour_scale(colour_mul(path->throughput, sky), weight), tally);

@@ -11,7 +11,6 @@
 /* An edge and the vertex at its end. 0: the path ends there. */
 TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally* tally) {
     const SamplerBlock u = path_numbers(path);
-    connect_prefetch(scene, &u);
     const Hit hit = path_closest(scene, path, tally);
     if (hit.primitive == TRIAD_NONE) {
         path_miss(scene, path, &hit, tally);

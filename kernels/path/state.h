@@ -9,12 +9,16 @@
 
 #include "path/colour.h"
 #include "shading/coverage.h"
+#include "shading/facing.h"
 #include "shading/light_tree.h"
 
 /* What a path has been so far. */
 #define PATH_STRAIGHT 1u /* only transmissions: the camera looks through */
 #define PATH_SPECULAR 2u /* only delta events */
 #define PATH_CAUSTIC 4u  /* one event that is no delta event, and then delta events only: photons' light */
+
+/* traits above, without a light tree: Receiver.facing at the last vertex, by path_face(). */
+#define PATH_FACING_SHIFT 16
 
 /* From its first dispersive surface on a path is followed with PATH_WAVELENGTHS wavelengths, one after the
  * other. */
@@ -37,7 +41,7 @@ typedef struct PathState {
     Sampler sampler; /* what the sample's random numbers are drawn by: path_numbers() */
     Ray ray;         /* the edge */
     uint edge;       /* its number: the camera's ray is edge 1 */
-    uint traits;     /* PATH_STRAIGHT, PATH_SPECULAR, PATH_CAUSTIC */
+    uint traits;     /* PATH_STRAIGHT, PATH_SPECULAR, PATH_CAUSTIC; PATH_FACING_SHIFT */
     float pdf;       /* solid-angle density of the direction; 0: delta or camera, found by no other sampling;
                         photons: infinite */
 #if TRIAD_LIGHT_TREE
@@ -87,11 +91,12 @@ TRIAD_FUNCTION Vec3 path_direction(const PathState* path) { return VEC3_OF(path-
 
 /* Where the path is, at `position`, as lights see it. */
 TRIAD_FUNCTION Receiver path_receiver(const PathState* path, Vec3 position) {
-    Receiver receiver = {position, vec3_splat(0.0f)};
+    Receiver receiver = {position, vec3_splat(0.0f), path->traits >> PATH_FACING_SHIFT};
 #if TRIAD_LIGHT_TREE
     receiver.normal = path->normal;
-#else
-    (void)path;
+#if TRIAD_ENVIRONMENT_MAP
+    receiver.facing = facing_of(path->normal);
+#endif
 #endif
     return receiver;
 }

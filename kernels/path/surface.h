@@ -3,6 +3,7 @@
 #define TRIAD_PATH_SURFACE_H
 
 #include "path/record.h"
+#include "shading/facing.h"
 #include "shading/vertex_bsdf.h"
 
 /* A surface may have to be looked at with each of the path's wavelengths. */
@@ -103,18 +104,20 @@ TRIAD_FUNCTION void path_reach(const Scene* scene, PathState* path, const Vertex
 /* Where lights are picked for this vertex: light from behind is lost on what transmits nothing. After
  * path_emission(), which asks about the vertex before. */
 TRIAD_FUNCTION void path_face(const Scene* scene, PathState* path, const Vertex* v) {
-#if TRIAD_LIGHT_TREE
-    path->normal = v->ng;
+    (void)scene, (void)path, (void)v;
+    int is_opaque = 1;
 #if TRIAD_TRANSMISSION
-    if (scene->materials[v->surface.material].transmission > 0.0f) path->normal = vec3_splat(0.0f);
-#else
-    (void)scene;
+    is_opaque = !(scene->materials[v->surface.material].transmission > 0.0f);
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION
-    if (v->surface.through > 0.0f) path->normal = vec3_splat(0.0f);
+    if (v->surface.through > 0.0f) is_opaque = 0;
 #endif
-#else
-    (void)scene, (void)path, (void)v;
+    (void)is_opaque;
+#if TRIAD_LIGHT_TREE
+    path->normal = is_opaque ? v->ng : vec3_splat(0.0f);
+#elif TRIAD_ENVIRONMENT_MAP
+    path->traits &= (1u << PATH_FACING_SHIFT) - 1u;
+    if (is_opaque) path->traits |= facing_of(v->ng) << PATH_FACING_SHIFT;
 #endif
 }
 

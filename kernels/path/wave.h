@@ -62,14 +62,15 @@ TRIAD_FUNCTION_PER_CALL Pool pool_at(size_t pool, global uint* states, global ui
 
 /* Parts of a path: stages store those that they change. */
 #define PART_NAME 1u     /* sampler */
-#define PART_EDGE 2u     /* ray, edge, traits, pdf, body_scale */
+#define PART_EDGE 2u     /* ray, edge, pdf, body_scale */
 #define PART_LOAD 4u     /* throughput, bodies */
 #define PART_FROM 8u     /* from, normal */
 #define PART_COLOURS 16u /* colours */
 #define PART_FOUND 32u   /* radiance, alpha */
 #define PART_FORK 64u    /* branch and edge of fork */
 #define PART_FORKED 128u /* the rest of it: set where the path forks */
-#define PART_ALL 255u
+#define PART_TRAITS 256u
+#define PART_ALL 511u
 
 /* Words of a slot on their way between planes and a path's members, in the order of the calls. */
 typedef struct Planes {
@@ -155,11 +156,12 @@ TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
     planes_part(p, PART_EDGE);
     planes_ray(p, &path->ray);
     planes_uint(p, &path->edge);
-    planes_uint(p, &path->traits);
     planes_float(p, &path->pdf);
 #if TRIAD_TRANSMISSION
     planes_float(p, &path->body_scale);
 #endif
+    planes_part(p, PART_TRAITS);
+    planes_uint(p, &path->traits);
     planes_part(p, PART_LOAD);
     planes_colour(p, &path->throughput);
 #if TRIAD_TRANSMISSION

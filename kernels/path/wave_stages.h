@@ -59,8 +59,8 @@ TRIAD_FUNCTION_PER_CALL void wave_edge(const Scene* scene, const Pool* pool, siz
 }
 
 /* Parts of a path that change at a vertex: while the path finds things there, and when it goes on. */
-#define PARTS_MEET (PART_LOAD | PART_FROM | PART_COLOURS | PART_FOUND | PART_FORK)
-#define PARTS_SCATTER (PART_EDGE | PART_LOAD | (PATH_EACH ? PART_COLOURS : 0u))
+#define PARTS_MEET (PART_TRAITS | PART_LOAD | PART_FROM | PART_COLOURS | PART_FOUND | PART_FORK)
+#define PARTS_SCATTER (PART_EDGE | PART_TRAITS | PART_LOAD | (PATH_EACH ? PART_COLOURS : 0u))
 
 /* The path is at the end of its edge: whether it ends there, WAVE_END, or is to go on, WAVE_GO. */
 TRIAD_FUNCTION_PER_CALL uint vertex_meet(const Scene* scene, PathState* path, const Vertex* vertex,

@@ -129,15 +129,6 @@ TRIAD_FUNCTION uint environment_row(const Scene* scene, uint u, float* fraction)
     return cdf_find(&scene->frame->environment.rows, scene->env_rows, u, fraction, &unused);
 }
 
-/* Asks for what environment_sample(u) will read last and wait for longest. */
-TRIAD_FUNCTION void environment_prefetch_columns(const Scene* scene, UVec2 u) {
-    float unused;
-    const uint row = environment_row(scene, u.y, &unused),
-               last = scene->frame->environment.columns.levels - 1u;
-    const uint group = columns_descend(scene, row, u.x, last);
-    TRIAD_PREFETCH(columns_level(scene, row, last) + COLUMNS_FANOUT * group);
-}
-
 /* Draws a direction from two uniform integers; returns its map coordinates. */
 TRIAD_FUNCTION Vec3 environment_sample(const Scene* scene, const Environment* e, UVec2 u, Vec2* uv) {
     float row_fraction;
@@ -158,21 +149,5 @@ TRIAD_FUNCTION Vec3 environment_sample(const Scene* scene, const Environment* e,
 }
 
 #endif
-
-/* Radiance from a world direction. *pdf: density with which light sampling draws this direction, the pick
- * included. */
-TRIAD_FUNCTION Vec3 environment_radiance(const Scene* scene, Vec3 d, float* pdf) {
-    const Environment e = scene->frame->environment;
-    *pdf = 0.0f;
-#if TRIAD_ENVIRONMENT_MAP
-    if (e.width != 0u) {
-        const Vec2 uv = environment_uv(&e, d);
-        const Vec3 radiance = environment_lookup(scene, &e, uv, pdf);
-        *pdf = e.light != TRIAD_NONE ? *pdf * scene->lights[e.light].pick : 0.0f;
-        return radiance;
-    }
-#endif
-    return VEC3_OF(e.colour);
-}
 
 #endif

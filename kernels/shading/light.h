@@ -6,7 +6,7 @@
 #include "common/random.h"
 #include "common/sampling.h"
 #include "shading/coat_emission.h"
-#include "shading/environment.h"
+#include "shading/facing.h"
 #include "shading/light_tree.h"
 #include "shading/surface.h"
 
@@ -159,9 +159,11 @@ TRIAD_FUNCTION LightPick light_pick(const Scene* scene, Receiver receiver, uint 
     return pick;
 }
 
-/* Draws a direction from p to a light by `u`, uniform 32-bit integers. 0 when nothing arrives. */
-TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Vec3 p, UVec2 u, LightSample* s) {
+/* Draws a direction to a light by `u`, uniform 32-bit integers. 0 when nothing arrives. */
+TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Receiver receiver, UVec2 u,
+                                       LightSample* s) {
     if (pick.light == TRIAD_NONE) return 0;
+    const Vec3 p = receiver.position;
     const Light light = light_picked(scene, pick);
     s->light = pick.light;
     s->flags = light.flags;
@@ -175,10 +177,15 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Vec3 
 #if TRIAD_ENVIRONMENT_MAP
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
+        s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
+        if (receiver.facing != 0u) {
+            float factor;
+            u = facing_warp(scene, receiver.facing, u, &factor);
+            s->inverse_pdf *= factor;
+        }
         s->direction = environment_sample(scene, &e, u, &s->uv);
         s->weight = vec3_splat(1.0f);
         environment_prefetch_texels(scene, &e, s->uv);
-        s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
         s->distant = 1;
         return 1;
     }
@@ -187,7 +194,7 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Vec3 
 }
 
 TRIAD_FUNCTION int light_sample(const Scene* scene, Receiver receiver, uint number, UVec2 u, LightSample* s) {
-    return light_sample_picked(scene, light_pick(scene, receiver, number), receiver.position, u, s);
+    return light_sample_picked(scene, light_pick(scene, receiver, number), receiver, u, s);
 }
 
 /* The second half of light_sample, for directions that nothing stands in the way of: maps are looked up here.

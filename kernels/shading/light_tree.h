@@ -12,6 +12,7 @@
 typedef struct Receiver {
     Vec3 position;
     Vec3 normal; /* unit: only light from its side counts; 0: from anywhere */
+    uint facing; /* that light from the environment map is drawn for (shading/facing.h); 0: for any */
 } Receiver;
 
 #if TRIAD_LIGHT_TREE

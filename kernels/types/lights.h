@@ -99,6 +99,15 @@ typedef struct ColumnsShape {
 } ColumnsShape;
 TRIAD_SIZE(ColumnsShape, 32);
 
+/* After the columns, in the same array: where a surface may face, as far as light sampling of the environment
+ * tells (kernels/shading/facing.h): the cells of an octahedron, across and down; and the patches of the map,
+ * rows and columns of them. A facing has the last of the 65536 shares of every row of patches, and then of
+ * every patch of each row. */
+#define FACINGS 16
+#define PATCH_BITS 4u
+#define PATCHES 16u
+#define FACING_SHARES (PATCHES + PATCHES * PATCHES)
+
 /* A texel of the environment and the solid-angle density of drawing a direction in it. */
 #define ENVIRONMENT_FLOAT 0u /* float[4]: R, G, B, density */
 #define ENVIRONMENT_RGBE                                                              \
