@@ -12,7 +12,8 @@ void allow_restarts(char** argv);
 bool restarts_allowed();
 
 /// For a program's own abort(), which libraries call, too: a new life if there is a Peril, else the end. The
-/// signal alone is not enough: LLVM catches it after a Peril does, when it is loaded.
+/// signal alone is not enough: LLVM catches it after a Peril does, when it is loaded. What the C library
+/// itself finds (a damaged heap, say) is signalled without this call.
 [[noreturn]] void end_by_abort();
 
 struct Death {

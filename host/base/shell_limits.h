@@ -17,7 +17,8 @@ void heed_shell_limits();
 void libraries_have_started();
 
 /// While it lives, libraries are loaded that start later than the program: within the shell's limits, or the
-/// process ends in the same way. One at a time.
+/// process ends in the same way. One at a time; where address space is limited it changes the process's
+/// handlers of SIGSEGV and std::terminate for as long.
 class LibrariesStart {
   public:
     LibrariesStart();

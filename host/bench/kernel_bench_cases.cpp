@@ -42,7 +42,7 @@ const char* const made = R"(
 )";
 const char* const evaluated = R"(
     float pdf;
-    const Colour f = bsdf_eval(&b, wo, vec3_make(IN(7), IN(8), IN(9)), 0u, &pdf);
+    const Colour f = bsdf_eval(&b, wo, vec3_make(IN(7), IN(8), IN(9)), &pdf);
     OUT3(0, f);
     OUT(3, pdf);
 )";
@@ -70,7 +70,7 @@ const char* const random_block = R"(
 )";
 const char* const radiance = R"(
     float pdf;
-    const Vec3 found = environment_radiance(&scene, vec3_make(IN(7), IN(8), IN(9)), &pdf);
+    const Vec3 found = environment_radiance(&scene, vec3_make(IN(7), IN(8), IN(9)), 0u, &pdf);
     OUT3(0, found);
     OUT(3, pdf);
 )";

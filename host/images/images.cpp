@@ -3,6 +3,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <cstring>
 #include <new>
 
 #include "base/error.h"
@@ -70,6 +71,7 @@ Input::Input(const std::string& name, const char* format, std::span<const std::u
     }
     if (spec_.width <= 0 || spec_.height <= 0 || spec_.depth > 1 || spec_.nchannels <= 0)
         fail("it has no flat picture");
+    if (spec_.channelnames.size() != std::size_t(spec_.nchannels)) fail("its channels are not all named");
     layout_ = {unsigned(spec_.width), unsigned(spec_.height), spec_.channelnames,
                spec_.format == OIIO::TypeDesc::UINT16};
 }
@@ -185,8 +187,9 @@ class OpenImageIo : public Formats {
 }  // namespace
 }  // namespace triad::image_formats
 
-/// The one name that the library shows.
-extern "C" [[gnu::visibility("default")]] const triad::image_formats::Formats& triad_image_formats() {
+/// The one name that the library shows. Null: it is of another version than who asks.
+extern "C" [[gnu::visibility("default")]] const triad::image_formats::Formats* triad_image_formats(
+    const char* version) {
     static const triad::image_formats::OpenImageIo formats;
-    return formats;
+    return std::strcmp(version, TRIAD_VERSION) == 0 ? &formats : nullptr;
 }

@@ -8,7 +8,7 @@
 namespace triad::image_formats {
 namespace {
 
-using Entry = const Formats& (*)();
+using Entry = const Formats* (*)(const char* version);
 
 /// Found beside what asks for it, by the paths that the build and the installation write into programs and
 /// libraries. Its names are bound when they are used, and are nobody else's. noexcept: what an initialiser
@@ -21,12 +21,17 @@ void* open_library() noexcept {
 const Formats& load() {
     void* library = open_library();
     void* entry = library ? ::dlsym(library, "triad_image_formats") : nullptr;
-    if (entry) return reinterpret_cast<Entry>(entry)();
-    const std::string reason = ::dlerror(), limits = shell_limits();
-    if (!limits.empty())
+    const char* fault = entry ? nullptr : ::dlerror();
+    if (const Formats* formats = entry ? reinterpret_cast<Entry>(entry)(TRIAD_VERSION) : nullptr)
+        return *formats;
+    const std::string reason = fault ? fault : "triad-images.so is of another version";
+    const bool is_memory_short = reason.find("failed to map") != std::string::npos ||
+                                 reason.find("annot allocate") != std::string::npos;
+    if (is_memory_short)
         throw Error(Exit::memory,
-                    "The libraries that read and write pictures cannot start within what the shell allows (" +
-                        limits + "): " + reason + ". Raise the limit.");
+                    "The libraries that read and write pictures cannot start within what the "
+                    "shell allows (" +
+                        shell_limits() + "): " + reason + ". Raise the limit.");
     throw Error(Exit::scene, "Pictures can be neither read nor written: " + reason +
                                  ". Install Triad again, with the packages that it depends on.");
 }

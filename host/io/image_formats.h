@@ -67,7 +67,8 @@ class Formats {
                                              const void* values) const = 0;
 };
 
-/// Loads the library when first called, from any thread. Throws Error(scene) where it cannot be loaded.
+/// Loads the library when first called, from any thread. Throws Error(scene) where it cannot be loaded,
+/// Error(memory) where the shell's limits are why.
 const Formats& loaded();
 
 }  // namespace triad::image_formats

@@ -77,7 +77,7 @@ std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false,
                                      std::size_t* saturated = nullptr);
 
 /// Loads what pictures but PNG need to be written, before a long work instead of after it. Throws
-/// Error(scene).
+/// Error(scene), Error(memory).
 void load_picture_formats();
 
 /// Encoded sRGB bytes (1, 3 or 4 channels, interleaved, 8 or 16 bits in host order, alpha linear and

@@ -7,6 +7,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <string>
 
@@ -18,6 +19,7 @@ namespace {
 /// What libpng's callbacks are given. They must not throw through it.
 struct Output {
     std::vector<std::uint8_t> bytes;
+    bool has_memory = true;
     char reason[200] = "no reason given";
 };
 
@@ -26,13 +28,22 @@ void fail(png_structp png, png_const_charp reason) {
     png_longjmp(png, 1);
 }
 
+png_voidp allocate(png_structp png, png_alloc_size_t size) {
+    void* memory = std::malloc(size);
+    if (!memory) static_cast<Output*>(png_get_mem_ptr(png))->has_memory = false;
+    return memory;
+}
+
+void release(png_structp, png_voidp memory) { std::free(memory); }
+
 void append(png_structp png, png_bytep data, std::size_t size) {
-    auto& bytes = static_cast<Output*>(png_get_io_ptr(png))->bytes;
+    auto& output = *static_cast<Output*>(png_get_io_ptr(png));
     try {
-        bytes.insert(bytes.end(), data, data + size);
+        output.bytes.insert(output.bytes.end(), data, data + size);
     } catch (const std::bad_alloc&) {
-        png_error(png, "out of memory");
+        output.has_memory = false;
     }
+    if (!output.has_memory) png_error(png, "out of memory");
 }
 
 /// Nothing of C++ lives here that a jump would leave behind. False: `output` says why.
@@ -68,12 +79,14 @@ std::vector<std::uint8_t> encode_png(const EncodedPicture& picture) {
         text.text_length = value.size();
         texts.push_back(text);
     }
-    png_structp png =
-        png_create_write_struct(PNG_LIBPNG_VER_STRING, &output, fail, [](png_structp, png_const_charp) {});
+    png_structp png = png_create_write_struct_2(
+        PNG_LIBPNG_VER_STRING, &output, fail, [](png_structp, png_const_charp) {}, &output, allocate,
+        release);
     png_infop info = png ? png_create_info_struct(png) : nullptr;
     if (info) png_set_write_fn(png, &output, append, nullptr);
     const bool done = info && write(picture, texts, png, info);
     png_destroy_write_struct(&png, &info);
+    if (!output.has_memory) throw std::bad_alloc();
     if (!done)
         throw Error(Exit::scene, std::string("Cannot encode the picture as png: ") + output.reason + ".");
     return std::move(output.bytes);

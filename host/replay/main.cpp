@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/program.h"
+#include "base/restart.h"
 #include "base/shell_limits.h"
 #include "device/device.h"
 #include "replay/command_line.h"
@@ -33,6 +34,8 @@ int run(int argc, char** argv) {
 [[gnu::section(".preinit_array"), gnu::used]] void (*const before_libraries)() = heed_shell_limits;
 
 }  // namespace
+
+extern "C" [[noreturn]] void abort() noexcept { end_by_abort(); }
 
 int main(int argc, char** argv) {
     libraries_have_started();

@@ -24,7 +24,8 @@ struct OutputStyle {
     Denoiser denoise = Denoiser::off;
 };
 
-/// Loads what these pictures need to be written: before a long work, not after it. Throws Error(scene).
+/// Loads what these pictures need to be written: before a long work, not after it. Throws Error(scene),
+/// Error(memory).
 void prepare_to_write(const std::vector<std::string>& paths);
 
 bool is_exr(const std::string& path);

@@ -1,7 +1,8 @@
 // An OpenCL driver that misbehaves as real ones did: a platform without devices, one that fails to list them,
 // and devices that answer no question, have no compiler, are too old, or say zero to every number. The
 // variable OCL_FAKE makes it worse: "abort at load", "abort", "exit" or "hang" when it is asked for
-// platforms, or "compiler", a GPU whose compiler divides by zero.
+// platforms, or "compiler", a GPU whose compiler divides by zero, or "catching compiler", whose
+// compiler aborts and catches that first, as LLVM does.
 #include <CL/cl_icd.h>
 #include <unistd.h>
 
@@ -133,7 +134,7 @@ cl_int CL_API_CALL platform_ids(cl_uint room, cl_platform_id* list, cl_uint* cou
     if (fake("exit")) std::exit(3);
     if (fake("hang"))
         for (;;) ::pause();
-    if (fake("compiler")) {
+    if (fake("compiler") || fake("catching compiler")) {
         if (list && room > 0) list[0] = &fragile_platform;
         if (count) *count = 1;
         return CL_SUCCESS;
@@ -168,6 +169,10 @@ cl_program CL_API_CALL create_program(cl_context, cl_uint, const char**, const s
 
 cl_int CL_API_CALL build_program(cl_program, cl_uint, const cl_device_id*, const char*,
                                  void(CL_CALLBACK*)(cl_program, void*), void*) {
+    if (fake("catching compiler")) {
+        std::signal(SIGABRT, [](int) { std::signal(SIGABRT, SIG_DFL); });
+        std::abort();
+    }
     std::raise(SIGFPE);
     return CL_BUILD_PROGRAM_FAILURE;
 }

@@ -189,6 +189,13 @@ TEST_F(DyingDrivers, of_a_program_that_they_compile_are_left_out_for_a_day) {
     expect(alone, why);
 }
 
+TEST_F(DyingDrivers, that_catch_their_own_abort_are_left_out) {
+    add_driver(TRIAD_FAKE_DRIVER);
+    const Outcome outcome = resolve("'OCL_FAKE=catching compiler'");
+    expect_picture(outcome);
+    expect(outcome, "Fragile is left out. Its driver died of signal 6 (Aborted) when it compiled subpixel/");
+}
+
 /// What an accident leaves of a file.
 struct Damage {
     const char* name;
