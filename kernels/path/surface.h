@@ -116,8 +116,8 @@ TRIAD_FUNCTION void path_face(const Scene* scene, PathState* path, const Vertex*
 #if TRIAD_LIGHT_TREE
     path->normal = is_opaque ? v->ng : vec3_splat(0.0f);
 #elif TRIAD_ENVIRONMENT_MAP
-    path->traits &= (1u << PATH_FACING_SHIFT) - 1u;
-    if (is_opaque) path->traits |= facing_of(v->ng) << PATH_FACING_SHIFT;
+    const uint facing = facing_of(v->ng) << PATH_FACING_SHIFT;
+    path->traits = (path->traits & ((1u << PATH_FACING_SHIFT) - 1u)) | (is_opaque ? facing : 0u);
 #endif
 }
 

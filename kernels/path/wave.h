@@ -156,12 +156,13 @@ TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
     planes_part(p, PART_EDGE);
     planes_ray(p, &path->ray);
     planes_uint(p, &path->edge);
+    planes_part(p, PART_TRAITS);
+    planes_uint(p, &path->traits);
+    planes_part(p, PART_EDGE);
     planes_float(p, &path->pdf);
 #if TRIAD_TRANSMISSION
     planes_float(p, &path->body_scale);
 #endif
-    planes_part(p, PART_TRAITS);
-    planes_uint(p, &path->traits);
     planes_part(p, PART_LOAD);
     planes_colour(p, &path->throughput);
 #if TRIAD_TRANSMISSION

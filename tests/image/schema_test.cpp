@@ -83,8 +83,7 @@ TEST_F(Schemas, describe_comparisons_and_panels) {
 TEST_F(Schemas, describe_devices_and_what_is_kept_of_them) {
     expect_report("devices", "devices >/dev/null");
     expect_report("check", "check --tiny --case L2,M3,C1 >/dev/null");
-    expect_report("bench-kernels",
-                  "bench kernels --items 1024 --rounds 1 --run 2 --filter texture >/dev/null");
+    expect_report("bench-kernels", "bench kernels --items 1024 --rounds 1 --local 1 --run 2 >/dev/null");
     // Of a cache of its own, where all that is kept is new.
     const std::string own = "XDG_CACHE_HOME=" + path("cache");
     const Outcome tuned = run_triad("tune --json " + path("tune.json") + " >/dev/null", own);
