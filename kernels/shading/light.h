@@ -178,12 +178,13 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
         s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
+        UVec2 numbers = u;
         if (receiver.facing != 0u) {
             float factor;
-            u = facing_warp(scene, receiver.facing, u, &factor);
+            numbers = facing_warp(scene, receiver.facing, u, &factor);
             s->inverse_pdf *= factor;
         }
-        s->direction = environment_sample(scene, &e, u, &s->uv);
+        s->direction = environment_sample(scene, &e, numbers, &s->uv);
         s->weight = vec3_splat(1.0f);
         environment_prefetch_texels(scene, &e, s->uv);
         s->distant = 1;
