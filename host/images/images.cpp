@@ -33,6 +33,19 @@ std::string first_line(std::string text) {
     return text.empty() ? "no reason given" : text;
 }
 
+/// Does `work`; what OpenImageIO throws of its own goes to `fail` as its words.
+void attempt(const auto& fail, const auto& work) {
+    try {
+        work();
+    } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& e) {
+        fail(e.what());
+    }
+}
+
 class Input : public Reader {
   public:
     Input(const std::string& name, const char* format, std::span<const std::uint8_t> bytes);
@@ -95,25 +108,21 @@ void Input::read_bands(Sample as, const std::function<void(unsigned, unsigned, c
     std::vector<std::uint8_t> values(row * std::min(band, spec_.height));
     for (int y = 0; y < spec_.height; y += band) {
         const int rows = std::min(band, spec_.height - y), first = spec_.y + y;
-        try {
-            bool read = true;
-            if (tiled)
-                read = input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows, 0, 1, 0,
-                                          spec_.nchannels, type, values.data());
-            else if (row <= widest_of_many)
-                read = input_->read_scanlines(0, 0, first, first + rows, 0, 0, spec_.nchannels, type,
-                                              values.data());
-            else
-                for (int i = 0; read && i < rows; ++i)
-                    read = input_->read_scanline(first + i, 0, type, values.data() + std::size_t(i) * row);
-            if (!read) fail(input_->geterror());
-        } catch (const Error&) {
-            throw;
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception& e) {
-            fail(e.what());
-        }
+        attempt([&](const char* what) { fail(what); },
+                [&] {
+                    bool read = true;
+                    if (tiled)
+                        read = input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows,
+                                                  0, 1, 0, spec_.nchannels, type, values.data());
+                    else if (row <= widest_of_many)
+                        read = input_->read_scanlines(0, 0, first, first + rows, 0, 0, spec_.nchannels, type,
+                                                      values.data());
+                    else
+                        for (int i = 0; read && i < rows; ++i)
+                            read = input_->read_scanline(first + i, 0, type,
+                                                         values.data() + std::size_t(i) * row);
+                    if (!read) fail(input_->geterror());
+                });
         take(unsigned(y), unsigned(rows), values.data());
     }
 }
@@ -158,18 +167,12 @@ std::vector<std::uint8_t> encode(const char* format, const OIIO::ImageSpec& spec
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const auto output = OIIO::ImageOutput::create(format);
     if (!output) fail("this OpenImageIO has no such writer");
-    try {
+    attempt(fail, [&] {
         output->set_ioproxy(&memory);
         const bool done = output->open(std::string("memory.") + format, spec) &&
                           output->write_image(type, values) && output->close();
         if (!done) fail(output->geterror());
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& e) {
-        fail(e.what());
-    }
+    });
     return bytes;
 }
 

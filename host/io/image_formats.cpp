@@ -24,14 +24,15 @@ const Formats& load() {
     const char* fault = entry ? nullptr : ::dlerror();
     if (const Formats* formats = entry ? reinterpret_cast<Entry>(entry)(TRIAD_VERSION) : nullptr)
         return *formats;
-    const std::string reason = fault ? fault : "triad-images.so is of another version";
+    const std::string limits = shell_limits(),
+                      reason = fault ? fault : "triad-images.so is of another version";
     const bool is_memory_short = reason.find("failed to map") != std::string::npos ||
                                  reason.find("annot allocate") != std::string::npos;
-    if (is_memory_short)
+    if (is_memory_short && !limits.empty())
         throw Error(Exit::memory,
                     "The libraries that read and write pictures cannot start within what the "
                     "shell allows (" +
-                        shell_limits() + "): " + reason + ". Raise the limit.");
+                        limits + "): " + reason + ". Raise the limit.");
     throw Error(Exit::scene, "Pictures can be neither read nor written: " + reason +
                                  ". Install Triad again, with the packages that it depends on.");
 }
