@@ -15,13 +15,14 @@ std::atomic<unsigned> limit{0};
 
 void set_host_threads(unsigned threads) { limit = threads; }
 
+unsigned host_threads() { return limit ? limit.load() : std::max(1u, std::thread::hardware_concurrency()); }
+
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
     if (count == 0) return;
     grain = std::max<std::size_t>(grain, 1);
     const std::size_t chunks = (count + grain - 1) / grain;
-    const unsigned cores = limit ? limit.load() : std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t workers = std::min<std::size_t>(cores, chunks);
+    const std::size_t workers = std::min<std::size_t>(host_threads(), chunks);
     std::atomic<std::size_t> next{0};
     std::exception_ptr failure;
     std::mutex mutex;

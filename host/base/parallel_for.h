@@ -12,5 +12,7 @@ void parallel_for(std::size_t count, std::size_t grain,
 
 /// Limits the threads of parallel_for (0 = all cores).
 void set_host_threads(unsigned threads);
+/// That parallel_for takes at most.
+unsigned host_threads();
 
 }  // namespace triad

@@ -127,33 +127,13 @@ void Input::read_bands(Sample as, const std::function<void(unsigned, unsigned, c
     }
 }
 
-void add_attribute(OIIO::ImageSpec& spec, const std::string& name, const Value& value) {
-    if (const auto* whole = std::get_if<int>(&value))
-        spec.attribute(name, *whole);
-    else if (const auto* single = std::get_if<float>(&value))
-        spec.attribute(name, *single);
-    else if (const auto* number = std::get_if<double>(&value))
-        spec.attribute(name, OIIO::TypeDesc::DOUBLE, number);
-    else if (const auto* text = std::get_if<std::string>(&value))
-        spec.attribute(name, *text);
-    else if (const auto* primaries = std::get_if<std::array<float, 8>>(&value))
-        spec.attribute(name, OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), primaries->data());
-    else
-        spec.attribute(name, OIIO::TypeMatrix, std::get<std::array<float, 16>>(value).data());
-}
-
 OIIO::ImageSpec spec_of(const Outline& outline, Sample given) {
     OIIO::ImageSpec spec(int(outline.width), int(outline.height), int(outline.channels), type_of(given));
-    spec.x = int(outline.x), spec.y = int(outline.y);
-    spec.full_width = int(outline.full_width ? outline.full_width : outline.width);
-    spec.full_height = int(outline.full_height ? outline.full_height : outline.height);
-    spec.alpha_channel = outline.alpha;
-    if (!outline.names.empty()) spec.channelnames.clear(), spec.z_channel = -1;
-    for (const auto& [name, sample] : outline.names) {
-        spec.channelnames.push_back(name);
-        spec.channelformats.push_back(type_of(sample));
-    }
-    for (const auto& [name, value] : outline.attributes) add_attribute(spec, name, value);
+    for (const auto& [name, value] : outline.attributes)
+        if (const int* number = std::get_if<int>(&value))
+            spec.attribute(name, *number);
+        else
+            spec.attribute(name, std::get<std::string>(value));
     return spec;
 }
 

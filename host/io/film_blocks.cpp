@@ -171,7 +171,7 @@ SalvagedFilm FilmReader::read() {
         if (!read(blocks, progress)) {
             found.lost_progress = true;
             film.progress->wanted.clear(), film.progress->set_errors.clear();
-            film.progress->estimates.clear();
+            film.progress->estimates.clear(), film.progress->rays = {};
         }
     }
     found.has_more = size > end;

@@ -15,10 +15,27 @@ SampleRange range_of(const json& range) {
     return {whole_number<std::uint64_t>(range.at(0)), whole_number<std::uint64_t>(range.at(1))};
 }
 
+json to_json(const RoundRays& rays) {
+    return {{"rays", rays.rays},
+            {"samples", rays.samples},
+            {"by_noise", rays.by_noise},
+            {"everywhere", rays.everywhere},
+            {"noisy", rays.noisy}};
+}
+RoundRays rays_of(const json& rays) {
+    return {whole_number<std::uint64_t>(rays.at("rays")), whole_number<std::uint64_t>(rays.at("samples")),
+            rays.at("by_noise").get<bool>(), rays.at("everywhere").get<double>(),
+            rays.at("noisy").get<double>()};
+}
+
 json to_json(const FilmProgress& progress) {
-    return {{"words", progress.words},         {"samples", to_json(progress.samples)},
-            {"ended", progress.ended},         {"wanted", progress.wanted.size()},
-            {"estimates", progress.estimates}, {"set_errors", progress.set_errors.size()}};
+    return {{"words", progress.words},
+            {"samples", to_json(progress.samples)},
+            {"ended", progress.ended},
+            {"wanted", progress.wanted.size()},
+            {"estimates", progress.estimates},
+            {"rays", to_json(progress.rays)},
+            {"set_errors", progress.set_errors.size()}};
 }
 
 FilmProgress progress_of(const json& header, ProgressSizes& sizes,
@@ -29,6 +46,7 @@ FilmProgress progress_of(const json& header, ProgressSizes& sizes,
     if (progress.samples.begin >= progress.samples.end) refuse("the samples that it asks for are none");
     progress.ended = header.at("ended").get<bool>();
     progress.estimates = header.at("estimates").get<decltype(progress.estimates)>();
+    if (header.contains("rays")) progress.rays = rays_of(header.at("rays"));
     sizes = {whole_number<std::uint64_t>(header.at("wanted")),
              whole_number<std::uint64_t>(header.at("set_errors"))};
     return progress;

@@ -2,7 +2,6 @@
 /// What reads and writes pictures as files, from and to memory: OpenImageIO, behind a border without its
 /// types. It lies in a library of its own, triad-images (host/images), that is loaded for the first picture:
 /// the 230 libraries that it brings take longer to start than a small picture takes to render.
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -39,19 +38,11 @@ class Reader {
     virtual std::string complaint() = 0;
 };
 
-/// Of an attribute: numbers, a text, primaries with white as x and y, a matrix row by row.
-using Value = std::variant<int, float, double, std::string, std::array<float, 8>, std::array<float, 16>>;
-
 /// A picture to write.
 struct Outline {
     unsigned width = 0, height = 0;
     unsigned channels = 0;
-    unsigned x = 0, y = 0;                     ///< where it lies in the full picture
-    unsigned full_width = 0, full_height = 0;  ///< 0: as the picture
-    int alpha = -1;                            ///< which channel; -1: none
-    /// Of the channels, with their types in the file; empty: as usual for their number, of the type given.
-    std::vector<std::pair<std::string, Sample>> names;
-    std::vector<std::pair<std::string, Value>> attributes;
+    std::vector<std::pair<std::string, std::variant<int, std::string>>> attributes;
 };
 
 /// Formats go by OpenImageIO's names of them and are never guessed: its other readers are not for untrusted

@@ -1,12 +1,9 @@
-/// Pictures to EXR, PNG, JPEG and HDR. Everything is encoded in memory and then written aside, so that a full
-/// disk is noticed before an older file is replaced.
+/// Pictures to JPEG and HDR, and files of pictures. Everything is encoded in memory and then written aside,
+/// so that a full disk is noticed before an older file is replaced.
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <set>
 #include <stdexcept>
 
 #include "base/colour.h"
@@ -21,45 +18,10 @@ namespace {
 
 using image_formats::Outline;
 using image_formats::Sample;
-using image_formats::Value;
 
 void save(const std::filesystem::path& path, const std::vector<std::uint8_t>& bytes) {
     write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
-
-/// Depths, positions, counts and weights lose their meaning in half precision.
-bool must_be_float(const std::string& channel) {
-    for (const char* layer : {"depth.", "position.", "samplecount.", "error.", "triad_weight"})
-        if (channel.starts_with(layer)) return true;
-    return channel == "Z";
-}
-
-/// Of Triad's names those whose values are numbers. All are double, which holds every count that there is.
-const std::set<std::string> numbers{
-    "triad:spp",         "triad:spp_min",   "triad:spp_max",   "triad:samples",        "triad:rays",
-    "triad:not_finite",  "triad:saturated", "triad:truncated", "triad:cut_energy",     "triad:relmse",
-    "triad:trend",       "triad:seed",      "triad:seconds",   "triad:compute_units",  "triad:ppd",
-    "triad:max_texture", "triad:exposure",  "triad:pose_time", "triad:perceived_noise"};
-
-/// pbrt-v4's names keep pbrt-v4's types (util/image.cpp), OpenEXR's have its own; other texts are strings.
-Value typed(const std::string& name, const std::string& value) {
-    const char* text = value.c_str();
-    if (numbers.contains(name)) return std::strtod(text, nullptr);
-    if (name == "renderTimeSeconds" || name == "MSE") return std::strtof(text, nullptr);
-    if (name == "samplesPerPixel") return int(std::strtol(text, nullptr, 10));
-    if (name != "worldToCamera" && name != "worldToNDC") return value;
-    std::array<float, 16> matrix;
-    for (float& v : matrix) {
-        char* end;
-        v = std::strtof(text, &end);
-        text = end;
-    }
-    return matrix;
-}
-
-/// What R, G and B are: the primaries of Rec. 709 and sRGB with their white, D65. Drives of a panel are
-/// colours of its own emitters.
-constexpr std::array<float, 8> rec709{.64f, .33f, .3f, .6f, .15f, .06f, .3127f, .329f};
 
 /// The channels side by side, interleaved. Throws std::logic_error when a channel has not one value per
 /// pixel.
@@ -107,40 +69,6 @@ const Channel* Picture::find(const std::string& name) const {
 }
 
 void load_picture_formats() { image_formats::loaded(); }
-
-std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half, std::size_t* saturated) {
-    std::vector<const Channel*> channels;
-    for (const Channel& channel : picture.channels) channels.push_back(&channel);
-    std::vector<float> values = interleave(picture, channels);
-
-    Outline outline{picture.width, picture.height,     unsigned(channels.size()), picture.x,
-                    picture.y,     picture.full_width, picture.full_height};
-    std::size_t count = 0;
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-        const bool narrow = half && !must_be_float(channels[c]->name);
-        outline.names.emplace_back(channels[c]->name, narrow ? Sample::f16 : Sample::f32);
-        if (channels[c]->name == "A") outline.alpha = int(c);
-        constexpr float half_max = 65504.0f;
-        for (std::size_t i = c; narrow && i < values.size(); i += channels.size())
-            if (std::abs(values[i]) > half_max) values[i] = std::copysign(half_max, values[i]), ++count;
-    }
-    auto& attributes = outline.attributes;
-    attributes = {{"compression", "zip"}, {"oiio:ColorSpace", "Linear"}};
-    // Else the writer adds the time: equal pictures have equal bytes.
-    attributes.emplace_back("DateTime", "");
-    for (const auto& [name, value] : picture.metadata) {
-        if (name != "capDate") {
-            attributes.emplace_back(name, typed(name, value));
-            continue;
-        }
-        attributes.emplace_back("DateTime", value);  // universal time
-        attributes.emplace_back("utcOffset", 0.0f);
-    }
-    if (picture.find("R") && !picture.metadata.contains("triad:panel"))
-        attributes.emplace_back("chromaticities", rec709);
-    if (saturated) *saturated = count;
-    return image_formats::loaded().encode("openexr", outline, Sample::f32, values.data());
-}
 
 std::vector<std::uint8_t> encode_hdr(const Picture& picture) {
     std::vector<const Channel*> channels;

@@ -76,7 +76,7 @@ std::size_t write_exr(const std::filesystem::path& path, const Picture& picture,
 std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half = false,
                                      std::size_t* saturated = nullptr);
 
-/// Loads what pictures but PNG need to be written, before a long work instead of after it. Throws
+/// Loads what pictures but PNG and EXR need to be written, before a long work instead of after it. Throws
 /// Error(scene), Error(memory).
 void load_picture_formats();
 

@@ -15,6 +15,9 @@ constexpr double least_share = 0.25;
 constexpr double most_growth = 4.0;
 /// Weights of a tile, of its neighbours by an edge, and by a corner, when a set's error is estimated.
 constexpr double weights[3] = {4.0, 1.0, 0.5};
+/// Samples go where noise is if the error then falls so many times as steeply: less is not worth that sets
+/// come to numbers of samples between those at which points lie best.
+constexpr double worth_it = 1.2;
 
 struct Tiles {
     std::size_t across, down;
@@ -22,23 +25,100 @@ struct Tiles {
         : across((width + FILM_TILE - 1) / FILM_TILE), down((height + FILM_TILE - 1) / FILM_TILE) {}
 };
 
-/// Per set: the mean s of a pixel as the other sets of its tile and of the tiles around show it.
-std::vector<double> seen_by_others(const Tiles& tiles, const SetErrors& s,
-                                   const std::vector<std::uint32_t>& pixels) {
-    std::vector<double> seen(s.size());
-    for (std::size_t y = 0; y < tiles.down; ++y)
-        for (std::size_t x = 0; x < tiles.across; ++x)
-            for (std::size_t set = 0; set < 2; ++set) {
-                double sum = 0, weight = 0;
-                for (std::size_t v = y - (y > 0); v < std::min(y + 2, tiles.down); ++v)
-                    for (std::size_t u = x - (x > 0); u < std::min(x + 2, tiles.across); ++u) {
-                        const std::size_t other = 2 * (v * tiles.across + u) + (1 - set);
-                        const double w = weights[(v != y) + (u != x)];
-                        sum += w * s[other], weight += w * pixels[other];
-                    }
-                seen[2 * (y * tiles.across + x) + set] = weight > 0 ? sum / weight : 0.0;
+/// Of a round.
+class Planner {
+  public:
+    Planner(const Tiles& tiles, const std::vector<std::uint32_t>& pixels, const SetErrors& errors,
+            const SetSamples& have, double mean)
+        : tiles_(tiles), pixels_(pixels), errors_(errors), have_(have), mean_(mean) {}
+
+    /// Not rounded.
+    std::vector<double> where_noise_is() const {
+        std::vector<double> share = seen_by_others();
+        for (double& value : share) value = std::sqrt(value);
+        return filled_up(share);
+    }
+    std::vector<double> everywhere() const { return filled_up(std::vector<double>(have_.size(), 1.0)); }
+
+    /// How steeply the error falls with rays up to these samples: d ln error / d ln rays. A sample costs
+    /// `dearer` times what those cost that are there.
+    double steepness(const std::vector<double>& samples, double dearer) const {
+        double error = 0, error_now = 0, more = 0, now = 0;
+        for (std::size_t i = 0; i < have_.size(); ++i) {
+            if (pixels_[i] == 0) continue;
+            error += errors_[i] / samples[i], error_now += errors_[i] / have_[i];
+            more += pixels_[i] * (samples[i] - have_[i]), now += double(pixels_[i]) * have_[i];
+        }
+        return error > 0 && more > 0 ? std::log(error_now / error) / std::log1p(dearer * more / now) : 0.0;
+    }
+
+  private:
+    const Tiles& tiles_;
+    const std::vector<std::uint32_t>& pixels_;
+    const SetErrors& errors_;
+    const SetSamples& have_;
+    const double mean_;
+
+    /// Mean s of a pixel of each set as the other sets of its tile and of the tiles around show it.
+    std::vector<double> seen_by_others() const {
+        std::vector<double> seen(have_.size());
+        for (std::size_t y = 0; y < tiles_.down; ++y)
+            for (std::size_t x = 0; x < tiles_.across; ++x)
+                for (std::size_t set = 0; set < 2; ++set) {
+                    double sum = 0, weight = 0;
+                    for (std::size_t v = y - (y > 0); v < std::min(y + 2, tiles_.down); ++v)
+                        for (std::size_t u = x - (x > 0); u < std::min(x + 2, tiles_.across); ++u) {
+                            const std::size_t other = 2 * (v * tiles_.across + u) + (1 - set);
+                            const double w = weights[(v != y) + (u != x)];
+                            sum += w * errors_[other], weight += w * pixels_[other];
+                        }
+                    seen[2 * (y * tiles_.across + x) + set] = weight > 0 ? sum / weight : 0.0;
+                }
+        return seen;
+    }
+
+    /// As many samples in proportion to `share` as the mean asks for. Each colour of the chessboard has its
+    /// own budget: shared, a set's own samples would decide by way of the sum.
+    std::vector<double> filled_up(const std::vector<double>& share) const {
+        const auto wanted = [&](std::size_t i, double scale) {
+            const double least = std::max(double(have_[i]), least_share * mean_);
+            return std::clamp(scale * share[i], least, std::max(least, most_growth * have_[i]));
+        };
+        std::vector<double> samples(have_.size());
+        for (std::size_t colour = 0; colour < 2; ++colour) {
+            const auto excess = [&](double scale) {
+                double sum = 0;
+                for (std::size_t i = colour; i < have_.size(); i += 2)
+                    sum += pixels_[i] * (wanted(i, scale) - mean_);
+                return sum;
+            };
+            // Bisection on the logarithm of the scale, over more than any film's range.
+            double low = -100, high = 100;
+            for (int i = 0; i < 60; ++i) {
+                const double middle = 0.5 * (low + high);
+                (excess(std::exp2(middle)) < 0 ? low : high) = middle;
             }
-    return seen;
+            for (std::size_t i = colour; i < have_.size(); i += 2) samples[i] = wanted(i, std::exp2(low));
+        }
+        return samples;
+    }
+};
+
+/// The closest to `wanted` of `have` and the numbers of samples at which points lie best.
+std::uint32_t well_placed(std::uint32_t have, double wanted, unsigned step) {
+    const double most = std::max<double>(have + step, most_growth * have);
+    std::uint32_t best = have;
+    const auto offer = [&](std::uint64_t steps) {
+        const std::uint64_t samples = steps * step + have % step;
+        if (samples > have && double(samples) <= most &&
+            std::abs(double(samples) - wanted) < std::abs(double(best) - wanted))
+            best = std::uint32_t(samples);
+    };
+    for (std::uint64_t power = 1; power * step <= most; power *= 2) {
+        offer(power);
+        if (power > 1) offer(power + power / 2);
+    }
+    return best;
 }
 
 }  // namespace
@@ -55,47 +135,33 @@ SetErrors relmse_of_sets(const Film& film, std::span<const float> errors, const 
     return result;
 }
 
-SetSamples distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
-                      double mean, unsigned step) {
+Distribution distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
+                        double mean, unsigned step, double dearer) {
     const std::vector<std::uint32_t> pixels = set_pixels(width, height);
-    std::vector<double> share = seen_by_others(Tiles(width, height), errors, pixels);
-    for (double& s : share) s = std::sqrt(s);
-    const auto wanted = [&](std::size_t i, double scale) {
-        const double least = std::max(double(have[i]), least_share * mean);
-        return std::clamp(scale * share[i], least, std::max(least, most_growth * have[i]));
-    };
-    // Each colour of the chessboard has its own budget: shared, a set's own samples would decide by way of
-    // the sum.
-    SetSamples result = have;
+    const Tiles tiles(width, height);
+    const Planner planner(tiles, pixels, errors, have, mean);
+    const std::vector<double> uneven = planner.where_noise_is(), even = planner.everywhere();
+    // Sets are asked that did not decide by their own noise: it is no promise of what was chosen for its
+    // sake.
+    const bool by_noise = planner.steepness(uneven, dearer) > worth_it * planner.steepness(even, 1);
+    const std::vector<double>& wanted = by_noise ? uneven : even;
+    Distribution result{have, by_noise};
     for (std::size_t colour = 0; colour < 2; ++colour) {
-        const auto excess = [&](double scale) {
-            double sum = 0;
-            for (std::size_t i = colour; i < have.size(); i += 2)
-                sum += pixels[i] * (wanted(i, scale) - mean);
-            return sum;
-        };
-        // Bisection on the logarithm of the scale, over more than any film's range.
-        double low = -100, high = 100;
-        for (int i = 0; i < 60; ++i) {
-            const double middle = 0.5 * (low + high);
-            (excess(std::exp2(middle)) < 0 ? low : high) = middle;
-        }
-        // What rounding to steps leaves over goes on to the next set.
-        double carry = 0;
+        double carry = 0;  // what rounding leaves over goes on to the next set, and in steps to the last
         for (std::size_t i = colour; i < have.size(); i += 2) {
             if (pixels[i] == 0) continue;
-            carry += pixels[i] * (wanted(i, std::exp2(low)) - have[i]);
-            const double steps = std::max(0.0, std::floor(carry / (pixels[i] * step) + 0.5));
-            result[i] += static_cast<std::uint32_t>(steps) * step;
-            carry -= steps * step * pixels[i];
+            carry += pixels[i] * (wanted[i] - have[i]);
+            const double fit = have[i] + carry / pixels[i];
+            std::uint32_t& samples = result.samples[i];
+            if (by_noise && i + 2 < have.size())
+                samples = well_placed(have[i], fit, step);
+            else
+                samples += std::uint32_t(std::max(0.0, std::floor((fit - have[i]) / step + 0.5))) * step;
+            carry -= double(pixels[i]) * (samples - have[i]);
         }
     }
-    if (result == have) {  // less than a step for every set: the noisiest gets one
-        std::size_t noisiest = 0;
-        for (std::size_t i = 1; i < have.size(); ++i)
-            if (pixels[i] > 0 && share[i] > share[noisiest]) noisiest = i;
-        result[noisiest] += step;
-    }
+    if (result.samples == have)  // less than a step for every set: the noisiest gets one
+        result.samples[std::size_t(std::ranges::max_element(errors) - errors.begin())] += step;
     return result;
 }
 

@@ -17,11 +17,20 @@ namespace triad {
 /// Of the relMSE. `errors`: error_map(film, Neighbours::own_set), which may be empty too.
 SetErrors relmse_of_sets(const Film& film, std::span<const float> errors, const SetSamples& have);
 
-/// What each set of a picture of this size should hold for the least error at `mean` samples per pixel, given
-/// that it holds `have`. Gives whole multiples of `step` samples, never less than `have`, and something to
-/// some set. The sum over sets of s / n at a given sum of n is least for n proportional to sqrt(s); a set's s
-/// is what the others around show, so that no set decides for itself.
-SetSamples distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
-                      double mean, unsigned step);
+/// What each set is to hold at the end of a round.
+struct Distribution {
+    SetSamples samples;
+    bool by_noise = false;  ///< not as many everywhere
+};
+
+/// For the least error at `mean` samples per pixel of a picture of this size whose sets hold `have`. Gives
+/// whole multiples of `step` samples, never less than `have`, and something to some set.
+///
+/// The sum over sets of s / n at a given sum of n is least for n proportional to sqrt(s); a set's s is what
+/// the others around show, so that no set decides for itself. A set gets a power of two of steps, or one and
+/// a half times that, where the points of a sequence lie best. Samples go everywhere where those that go by
+/// noise do not promise to lower the error faster by rays; of these they take `dearer` times as many.
+Distribution distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
+                        double mean, unsigned step, double dearer = 1);
 
 }  // namespace triad

@@ -63,6 +63,7 @@ void RenderLoop::go_on() {
     total_at_start_ = total_;
     if (film().devices.size() > 1 && s_.shares.sets() == 0) s_.shares = SampleShares(have_.size());
     schedule_.go_on_from(samples());
+    round_.rays = film().counters[COUNTER_RAYS], round_.samples = total_;
     if (s_.progress && s_.progress->samples.begin == goal_.samples.begin) go_on_from(*s_.progress);
     s_.progress.reset();
     if (total_ > 0 && wanted_.empty() && schedule_.needs_estimate()) estimate(true);
@@ -75,6 +76,7 @@ void RenderLoop::go_on_from(const FilmProgress& progress) {
         schedule_.add_estimate(samples, relmse);
         trend_.add(samples_before_ + samples, relmse);
     }
+    round_ = progress.rays;
     if (goal_.set_errors) {
         if (progress.set_errors.empty()) return;  // still at the first samples, by which it is asked first
         goal_.set_errors->go_on_from(progress.set_errors);
@@ -139,11 +141,25 @@ bool RenderLoop::plan_round() {
 
 /// What each set is to hold at the end of a round. The first samples are taken evenly: there is nothing
 /// to decide by. Adaptive sampling for the relMSE gives both halves of every bin the same.
-SetSamples RenderLoop::wanted_at(double end) const {
-    if (!set_errors_.empty())
-        return distribute(film().width, film().height, set_errors_, have_, end,
-                          unsigned((goal_.set_errors ? 1 : 2) * film().bins()));
+SetSamples RenderLoop::wanted_at(double end) {
+    if (!set_errors_.empty()) {
+        const double dearer =
+            round_.noisy > 0 && round_.everywhere > 0 ? round_.noisy / round_.everywhere : 1.0;
+        Distribution next = distribute(film().width, film().height, set_errors_, have_, end,
+                                       unsigned((goal_.set_errors ? 1 : 2) * film().bins()), dearer);
+        round_.by_noise = next.by_noise;
+        return std::move(next.samples);
+    }
     return SetSamples(have_.size(), std::uint32_t(std::llround(end)));
+}
+
+/// Counts what the round took that has ended.
+void RenderLoop::count_rays() {
+    const std::uint64_t rays = film().counters[COUNTER_RAYS];
+    if (total_ > round_.samples && rays > round_.rays)
+        (round_.by_noise ? round_.noisy : round_.everywhere) =
+            double(rays - round_.rays) / double(total_ - round_.samples);
+    round_.rays = rays, round_.samples = total_;
 }
 
 /// Renders pass by pass until every set holds what is wanted, or it is time to stop.
@@ -195,6 +211,7 @@ void RenderLoop::look() {
         with_a_device([this] { set_errors_ = goal_.set_errors->of(film(), have_); });
     else
         set_errors_ = relmse_of_sets(film(), error_map(film(), Neighbours::own_set), have_);
+    count_rays();
     has_looked_ = true;
     s_.store.set_ranges(ranges_before_);
 }
@@ -226,6 +243,7 @@ FilmProgress RenderLoop::film_progress() const {
     progress.samples = goal_.samples;
     progress.wanted = wanted_;
     progress.estimates = estimates_;
+    progress.rays = round_;
     if (goal_.set_errors && has_looked_) progress.set_errors = goal_.set_errors->kept();
     return progress;
 }

@@ -64,13 +64,15 @@ class RenderLoop {
     std::optional<double> perceived_noise_;
     double photon_seconds_ = 0;  ///< of all photons of a sample
     std::uint64_t rays_ = 0;
+    RoundRays round_;
 
     // render_loop.cpp: rounds, and what is known of the picture
     void go_on();
     void go_on_from(const FilmProgress& progress);
     void work_through_rounds();
     bool plan_round();
-    SetSamples wanted_at(double end) const;
+    SetSamples wanted_at(double end);
+    void count_rays();
     void reach(const SetSamples& wanted);
     double samples_of_pass() const;  ///< where one sample per pixel is not more
     void look();

@@ -16,6 +16,15 @@ constexpr double reached = 1.02;
 /// Of the time asked for: what an even render may miss it by to end after whole samples.
 constexpr double missable = 0.02;
 
+/// Where a round ends on the way to an error: where `end` is close to a power of two samples in every bin, or
+/// to one and a half times that, there, since points of a sequence lie best; more than `samples`.
+double well_placed(double end, double samples, double bins) {
+    const double power = bins * std::exp2(std::floor(std::log2(end / bins)));
+    for (const double number : {power, 1.5 * power, 2 * power})
+        if (number > samples && number >= 0.87 * end && number <= 1.05 * end) return number;
+    return end;
+}
+
 }  // namespace
 
 std::string to_string(Stop stop) {
@@ -72,6 +81,7 @@ std::optional<double> Schedule::next_round(double samples, double seconds) {
         const double there = std::max(trend_.samples_for(goal_.error), 1.01 * samples);
         end = std::min(end, there > sure_step * samples ? samples + 0.75 * (there - samples) : there);
     }
+    if (goal_.error > 0 && samples > 0) end = std::min(limit_, well_placed(end, samples, bins_));
     if (goal_.seconds > 0 && samples > 0) {
         if (time_is_up(samples, seconds)) return stop(Stop::time);
         end = std::min(end, samples + time_left(seconds) / pace(samples, seconds));
@@ -95,9 +105,8 @@ double Schedule::mean_pace(double samples, double seconds) const {
 }
 
 bool Schedule::may_end_within_sample(double samples, double seconds) const {
-    if (goal_.adaptive) return true;
-    return goal_.seconds > 0 && samples > 0 &&
-           0.5 * bins_ * pace(samples, seconds) > missable * goal_.seconds;
+    if (!(goal_.seconds > 0)) return false;
+    return goal_.adaptive || (samples > 0 && 0.5 * bins_ * pace(samples, seconds) > missable * goal_.seconds);
 }
 
 bool Schedule::time_is_up(double samples, double seconds) const {

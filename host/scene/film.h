@@ -23,6 +23,14 @@ struct SampleNumbers {
     double mean = 0;                    ///< per pixel
 };
 
+/// What samples of adaptive sampling cost.
+struct RoundRays {
+    std::uint64_t rays = 0, samples = 0;  ///< of the film, all pixels together, when the round at hand began
+    bool by_noise = false;                ///< its samples go where noise is, not everywhere
+    double everywhere = 0, noisy = 0;     ///< per sample of the latest round of each kind; 0: none yet
+    bool operator==(const RoundRays&) const = default;
+};
+
 /// What a render had still to do when its film was kept, so that it goes on as if it had never stopped.
 struct FilmProgress {
     std::vector<std::string> words;  ///< of the command line that began it: options that decide the picture
@@ -32,6 +40,7 @@ struct FilmProgress {
     std::vector<std::uint32_t> wanted;
     /// Samples per pixel and estimated relMSE at the ends of rounds.
     std::vector<std::pair<double, double>> estimates;
+    RoundRays rays;
     std::string set_errors;  ///< SetErrorSource::kept()
 };
 

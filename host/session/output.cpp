@@ -77,7 +77,8 @@ bool is_linear(const std::string& path) { return is_linear_format(extension_of(p
 
 void prepare_to_write(const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
-        if (extension_of(path) != ".png") load_picture_formats();
+        if (const std::string extension = extension_of(path); extension != ".png" && extension != ".exr")
+            load_picture_formats();
 }
 
 bool is_picture(const std::string& path) {

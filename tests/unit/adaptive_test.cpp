@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -33,7 +34,20 @@ double mean_of(const Film& film, const SetSamples& samples) {
 
 SetSamples distribute_by(const Film& film, const std::vector<float>& errors, const SetSamples& have,
                          double mean, unsigned step) {
-    return distribute(film.width, film.height, relmse_of_sets(film, errors, have), have, mean, step);
+    return distribute(film.width, film.height, relmse_of_sets(film, errors, have), have, mean, step).samples;
+}
+
+/// Over tiles [from, to) of each row of a picture of 128 pixels.
+double mean_of_columns(const SetSamples& samples, std::size_t from, std::size_t to) {
+    double sum = 0, sets = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (i / 2 % 16 >= from && i / 2 % 16 < to) sum += samples[i], sets += 1;
+    return sum / sets;
+}
+
+/// A power of two, or one and a half times that.
+bool is_well_placed(std::uint32_t n) {
+    return std::has_single_bit(n) || (n % 3 == 0 && std::has_single_bit(n / 3));
 }
 
 /// A picture that is built up sample by sample: a pixel is bright with a probability, rarely on the left, and
@@ -76,7 +90,8 @@ class Fireflies {
             std::vector<float> errors = error_map(film_, Neighbours::own_set);
             if (own)  // the neighbour's place is in the other set of the same tile
                 for (std::size_t p = 0; p < errors.size(); p += 2) std::swap(errors[p], errors[p + 1]);
-            reach(distribute(width, height, relmse_of_sets(film_, errors, have_), have_, mean, 2));
+            reach(distribute(width, height, relmse_of_sets(film_, errors, have_), have_, mean, 2, 1e-3)
+                      .samples);  // so cheap: always
         }
     }
 
@@ -131,8 +146,28 @@ TEST(Adaptive, samples_go_as_the_square_root_of_the_noise) {
     for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p % 128 < 64 ? 1.0f : 9.0f;
     const SetSamples have(2 * 16 * 8, 16), given = distribute_by(film, errors, have, 40, 2);
     EXPECT_NEAR(mean_of(film, given), 40, 0.01);
-    EXPECT_NEAR(given[2 * (3 * 16 + 2)], 20, 2);  // far from the border, 1 : 3
-    EXPECT_NEAR(given[2 * (3 * 16 + 13)], 60, 2);
+    EXPECT_NEAR(mean_of_columns(given, 1, 7), 20, 2);  // far from the border, 1 : 3
+    EXPECT_NEAR(mean_of_columns(given, 9, 15), 60, 2);
+    for (std::size_t i = 0; i + 2 < given.size(); ++i)  // the last two take what is left
+        EXPECT_TRUE(is_well_placed(given[i])) << given[i];
+}
+
+TEST(Adaptive, samples_go_everywhere_where_noise_promises_too_little) {
+    const Film film = sized(128, 64);
+    std::vector<float> errors(film.pixels());
+    for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p % 128 < 64 ? 1.0f : 2.0f;
+    const SetSamples have(2 * 16 * 8, 16);
+    const SetErrors s = relmse_of_sets(film, errors, have);
+    const Distribution given = distribute(128, 64, s, have, 40, 2);
+    EXPECT_FALSE(given.by_noise);
+    EXPECT_EQ(given.samples, SetSamples(2 * 16 * 8, 40));
+
+    for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p % 128 < 96 ? 1.0f : 9.0f;
+    const SetErrors noisy = relmse_of_sets(film, errors, have);
+    EXPECT_TRUE(distribute(128, 64, noisy, have, 24, 2).by_noise);
+    EXPECT_FALSE(distribute(128, 64, noisy, have, 24, 2, 2.5).by_noise) << "they are too dear";
+    const SetSamples uneven = distribute(128, 64, noisy, have, 24, 2).samples;
+    EXPECT_EQ(distribute(128, 64, s, uneven, 64, 2, 10).samples, SetSamples(2 * 16 * 8, 64)) << "even again";
 }
 
 TEST(Adaptive, no_set_loses_starves_or_takes_all) {

@@ -190,6 +190,7 @@ TEST(FilmFile, keeps_what_is_still_to_be_done) {
                                  .ended = true,
                                  .wanted = {4, 6, 8},
                                  .estimates = {{4, 0.1}, {5.3, 1.0 / 3}},
+                                 .rays = {12345, 678, true, 3.25, 1.0 / 3},
                                  .set_errors = std::string("a\0b", 3)};
     save_film(folder / "a.film", film);
     const Film back = load_film(folder / "a.film"), header = load_film_header(folder / "a.film");
@@ -200,6 +201,7 @@ TEST(FilmFile, keeps_what_is_still_to_be_done) {
     EXPECT_TRUE(back.progress->ended);
     EXPECT_EQ(back.progress->wanted, film.progress->wanted);
     EXPECT_EQ(back.progress->estimates, film.progress->estimates);
+    EXPECT_EQ(back.progress->rays, film.progress->rays);
     EXPECT_EQ(back.progress->set_errors, film.progress->set_errors);
     EXPECT_TRUE(header.sums.empty());
     EXPECT_FALSE(merge(std::vector<Film>{back, synthetic({4, 8})}).progress.has_value());

@@ -83,6 +83,16 @@ TEST(Schedule, the_error_asked_for_is_reached_and_not_by_far) {
             }
 }
 
+TEST(Schedule, an_error_is_sought_where_points_lie_well) {
+    const auto samples_for = [](double error) {
+        return follow({.samples = {0, no_limit}, .error = error}, {.slope = -1}).samples;
+    };
+    EXPECT_EQ(samples_for(1 / 63.5), 64);
+    EXPECT_EQ(samples_for(1 / 93.0), 96);
+    EXPECT_EQ(samples_for(1 / 64.9), 64) << "less than two percent above the error";
+    EXPECT_EQ(samples_for(1 / 80.0), 80) << "none is near";
+}
+
 TEST(Schedule, estimates_that_scatter_do_not_move_the_error_reached) {
     std::vector<double> ratios;
     for (unsigned seed = 0; seed < 200; ++seed) {
