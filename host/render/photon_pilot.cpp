@@ -47,23 +47,46 @@ Pilot fly(Renderer& renderer, double photon_share) {
     return {std::move(film), relmse, rays};
 }
 
-/// Means of blocks and channels, and of their noise: half the difference of their halves.
+/// Sums over blocks, by channel, of means and of their noise: half the difference of their halves.
 struct Blocks {
-    std::vector<double> means, noise;
+    std::vector<double> means, noise, pixels;
 
-    explicit Blocks(const Film& film) {
+    explicit Blocks(const Film& film) : width_(film.width), across_((film.width + block - 1) / block) {
         const HalfMeans halves = *half_means(film);
-        const std::size_t across = (film.width + block - 1) / block;
-        means.resize(across * ((film.height + block - 1) / block) * 3);
-        noise.resize(means.size());
+        means.resize(across_ * ((film.height + block - 1) / block) * 3);
+        noise.resize(means.size()), pixels.resize(means.size());
         for (std::size_t p = 0; p < film.pixels(); ++p)
             for (std::size_t c = 0; c < 3; ++c) {
-                const std::size_t b = (p / film.width / block * across + p % film.width / block) * 3 + c;
+                const std::size_t b = of(p, c);
                 means[b] += (double(halves.first[3 * p + c]) + halves.second[3 * p + c]) / 2;
                 noise[b] += (double(halves.first[3 * p + c]) - halves.second[3 * p + c]) / 2;
+                pixels[b] += 1;
             }
     }
+    /// Where that of a pixel's channel is.
+    std::size_t of(std::size_t pixel, std::size_t channel) const {
+        return (pixel / width_ / block * across_ + pixel % width_ / block) * 3 + channel;
+    }
+
+  private:
+    std::size_t width_, across_;
 };
+
+/// The photons' part of the relMSE of `many`. Both have the same paths: what differs is the photons' noise,
+/// of the one and of the other. (The difference of their errors says as much in the mean, but nothing of
+/// specks that one of a thousand photons makes.)
+double photon_part(const Film& many, const Film& few) {
+    const HalfMeans a = *half_means(many), b = *half_means(few);
+    const Blocks blocks(many);
+    double sum = 0;
+    for (std::size_t i = 0; i < a.first.size(); ++i) {
+        const double d = ((double(a.first[i]) - b.first[i]) - (double(a.second[i]) - b.second[i])) / 2;
+        const std::size_t at = blocks.of(i / 3, i % 3);
+        const double mean = blocks.means[at] / blocks.pixels[at];
+        sum += d * d / (mean * mean + 0.01);
+    }
+    return sum / double(a.first.size()) / (1 + 1 / few_photons);
+}
 
 RenderSettings small_picture(const RenderSettings& settings) {
     const double all = double(settings.width) * settings.height;
@@ -83,7 +106,7 @@ PilotChoice chosen(const std::shared_ptr<const DeviceScene>& scene, const Render
     Renderer renderer({scene}, small);
     // Both have the same paths, and so the same noise of these.
     const Pilot many = fly(renderer, 1), few = fly(renderer, few_photons);
-    const double photons = std::max(0.0, (few.relmse - many.relmse) / (1 / few_photons - 1));
+    const double photons = photon_part(many.film, few.film);
     const double paths = std::max(many.relmse - photons, 0.01 * many.relmse);
     const double photon_rays = (many.rays - few.rays) / (1 - few_photons);
     const double rays_per_pixel = (many.rays - photon_rays) / (pixels * pilot_samples);
