@@ -6,9 +6,7 @@
 #include <ctime>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "base/spans.h"
-#include "base/text.h"
 
 namespace triad {
 namespace {
@@ -17,8 +15,6 @@ namespace {
 constexpr double longest_run = 256;
 /// Between two reports within a pass, where one takes long.
 constexpr double seconds_between_reports = 1;
-/// Of the time that rendering takes: for writing the film meanwhile.
-constexpr double share_of_writes = 0.01;
 
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -67,22 +63,6 @@ void RenderLoop::go_on() {
     if (s_.progress && s_.progress->samples.begin == goal_.samples.begin) go_on_from(*s_.progress);
     s_.progress.reset();
     if (total_ > 0 && wanted_.empty() && schedule_.needs_estimate()) estimate(true);
-}
-
-void RenderLoop::go_on_from(const FilmProgress& progress) {
-    if (!goal_.adaptive && goal_.error == 0) return;  // all sets get all that is asked for
-    for (const auto& [samples, relmse] : progress.estimates) {
-        estimates_.emplace_back(samples, relmse);
-        schedule_.add_estimate(samples, relmse);
-        trend_.add(samples_before_ + samples, relmse);
-    }
-    round_ = progress.rays;
-    if (goal_.set_errors) {
-        if (progress.set_errors.empty()) return;  // still at the first samples, by which it is asked first
-        goal_.set_errors->go_on_from(progress.set_errors);
-        has_looked_ = true;
-    }
-    if (progress.wanted.size() == have_.size()) wanted_ = progress.wanted;
 }
 
 RenderResult RenderLoop::run() {
@@ -143,8 +123,9 @@ bool RenderLoop::plan_round() {
 /// to decide by. Adaptive sampling for the relMSE gives both halves of every bin the same.
 SetSamples RenderLoop::wanted_at(double end) {
     if (!set_errors_.empty()) {
-        const double dearer =
-            round_.noisy > 0 && round_.everywhere > 0 ? round_.noisy / round_.everywhere : 1.0;
+        // Beside the camera's, which cost next to nothing where they meet nothing.
+        const double noisy = round_.noisy - 1, everywhere = round_.everywhere - 1;
+        const double dearer = noisy > 0 && everywhere > 0 ? noisy / everywhere : 1.0;
         Distribution next = distribute(film().width, film().height, set_errors_, have_, end,
                                        unsigned((goal_.set_errors ? 1 : 2) * film().bins()), dearer);
         round_.by_noise = next.by_noise;
@@ -235,40 +216,6 @@ void RenderLoop::estimate(bool decides) {
     s_.store.set_ranges(ranges_before_);
     // Estimating reads the whole film: spend a small share of the time on it.
     next_estimate_ = seconds() + std::max(1.0, 20 * (seconds() - began));
-}
-
-FilmProgress RenderLoop::film_progress() const {
-    FilmProgress progress;
-    progress.words = goal_.keep.words;
-    progress.samples = goal_.samples;
-    progress.wanted = wanted_;
-    progress.estimates = estimates_;
-    progress.rays = round_;
-    if (goal_.set_errors && has_looked_) progress.set_errors = goal_.set_errors->kept();
-    return progress;
-}
-
-/// Between two launches.
-void RenderLoop::keep_when_due() {
-    if (abandoned_ || !is_keeping_due()) return;
-    const double began = seconds();
-    name_ranges();
-    name_shares();
-    gather();
-    s_.store.set_progress(film_progress());
-    goal_.keep.write(film());
-    s_.store.set_progress({});
-    s_.store.set_ranges(ranges_before_);
-    const double took = seconds() - began;
-    double interval = goal_.keep.seconds;
-    if (!goal_.keep.exactly && !goal_.keep.wanted && took > share_of_writes * interval) {
-        interval = took / share_of_writes;
-        if (!told_of_slow_writes_)
-            inform(format("Writing the film takes %.1f s: from now on it is written every %.0f s.", took,
-                          interval));
-        told_of_slow_writes_ = true;
-    }
-    next_kept_ = seconds() + interval;
 }
 
 /// A further render goes on from here.

@@ -68,7 +68,6 @@ class RenderLoop {
 
     // render_loop.cpp: rounds, and what is known of the picture
     void go_on();
-    void go_on_from(const FilmProgress& progress);
     void work_through_rounds();
     bool plan_round();
     SetSamples wanted_at(double end);
@@ -80,16 +79,19 @@ class RenderLoop {
     void name_ranges();
     void name_shares();
     std::vector<SampleRange> with_before(SampleRange range) const;
+    void report();
+    void remember();
+    std::vector<DeviceWork> devices() const;
+    Progress progress() const;
+
+    // render_kept.cpp: films that are kept meanwhile
+    void go_on_from(const FilmProgress& progress);
     FilmProgress film_progress() const;
     bool is_keeping_due() const {
         if (!goal_.keep.write) return false;
         return goal_.keep.wanted ? goal_.keep.wanted() : seconds() >= next_kept_;
     }
     void keep_when_due();
-    void report();
-    void remember();
-    std::vector<DeviceWork> devices() const;
-    Progress progress() const;
 
     // render_passes.cpp: what the devices do
     bool is_abandoned();

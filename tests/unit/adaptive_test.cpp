@@ -33,8 +33,9 @@ double mean_of(const Film& film, const SetSamples& samples) {
 }
 
 SetSamples distribute_by(const Film& film, const std::vector<float>& errors, const SetSamples& have,
-                         double mean, unsigned step) {
-    return distribute(film.width, film.height, relmse_of_sets(film, errors, have), have, mean, step).samples;
+                         double mean, unsigned step, double dearer = 1) {
+    return distribute(film.width, film.height, relmse_of_sets(film, errors, have), have, mean, step, dearer)
+        .samples;
 }
 
 /// Over tiles [from, to) of each row of a picture of 128 pixels.
@@ -144,7 +145,7 @@ TEST(Adaptive, samples_go_as_the_square_root_of_the_noise) {
     const Film film = sized(128, 64);
     std::vector<float> errors(film.pixels());
     for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p % 128 < 64 ? 1.0f : 9.0f;
-    const SetSamples have(2 * 16 * 8, 16), given = distribute_by(film, errors, have, 40, 2);
+    const SetSamples have(2 * 16 * 8, 16), given = distribute_by(film, errors, have, 40, 2, 0.5);
     EXPECT_NEAR(mean_of(film, given), 40, 0.01);
     EXPECT_NEAR(mean_of_columns(given, 1, 7), 20, 2);  // far from the border, 1 : 3
     EXPECT_NEAR(mean_of_columns(given, 9, 15), 60, 2);
