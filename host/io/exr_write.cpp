@@ -21,6 +21,7 @@
 #include <new>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include "base/error.h"
 #include "base/parallel_for.h"
@@ -128,6 +129,15 @@ std::vector<half> halves(const std::vector<float>& values, std::size_t& saturate
     return result;
 }
 
+/// As many as there are to be, or as a limit of the shell allows.
+void start_threads() {
+    try {
+        for (int threads = Imf::globalThreadCount(); threads < int(host_threads()); ++threads)
+            Imf::setGlobalThreadCount(threads + 1);
+    } catch (const std::system_error&) {  // fewer do all the same
+    }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half_precision, std::size_t* saturated) {
@@ -149,8 +159,7 @@ std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half_precision
                 add(channel.name, Imf::HALF, narrow.emplace_back(halves(channel.values, count)).data());
             else
                 add(channel.name, Imf::FLOAT, channel.values.data());
-        if (picture.channels.size() * picture.channels.front().values.size() >= many_samples)
-            Imf::setGlobalThreadCount(int(host_threads()));
+        if (picture.channels.size() * picture.channels.front().values.size() >= many_samples) start_threads();
         Imf::OutputFile output(file, header, Imf::globalThreadCount());
         output.setFrameBuffer(buffer);
         output.writePixels(int(picture.height));

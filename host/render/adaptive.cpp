@@ -41,6 +41,24 @@ class Planner {
     }
     std::vector<double> everywhere() const { return filled_up(std::vector<double>(have_.size(), 1.0)); }
 
+    /// Mean s of a pixel of each set as the other sets of its tile and of the tiles around show it.
+    std::vector<double> seen_by_others() const {
+        std::vector<double> seen(have_.size());
+        for (std::size_t y = 0; y < tiles_.down; ++y)
+            for (std::size_t x = 0; x < tiles_.across; ++x)
+                for (std::size_t set = 0; set < 2; ++set) {
+                    double sum = 0, weight = 0;
+                    for (std::size_t v = y - (y > 0); v < std::min(y + 2, tiles_.down); ++v)
+                        for (std::size_t u = x - (x > 0); u < std::min(x + 2, tiles_.across); ++u) {
+                            const std::size_t other = 2 * (v * tiles_.across + u) + (1 - set);
+                            const double w = weights[(v != y) + (u != x)];
+                            sum += w * errors_[other], weight += w * pixels_[other];
+                        }
+                    seen[2 * (y * tiles_.across + x) + set] = weight > 0 ? sum / weight : 0.0;
+                }
+        return seen;
+    }
+
     /// How steeply the error falls with rays up to these samples: d ln error / d ln rays. A sample costs
     /// `dearer` times what those cost that are there.
     double steepness(const std::vector<double>& samples, double dearer) const {
@@ -59,24 +77,6 @@ class Planner {
     const SetErrors& errors_;
     const SetSamples& have_;
     const double mean_;
-
-    /// Mean s of a pixel of each set as the other sets of its tile and of the tiles around show it.
-    std::vector<double> seen_by_others() const {
-        std::vector<double> seen(have_.size());
-        for (std::size_t y = 0; y < tiles_.down; ++y)
-            for (std::size_t x = 0; x < tiles_.across; ++x)
-                for (std::size_t set = 0; set < 2; ++set) {
-                    double sum = 0, weight = 0;
-                    for (std::size_t v = y - (y > 0); v < std::min(y + 2, tiles_.down); ++v)
-                        for (std::size_t u = x - (x > 0); u < std::min(x + 2, tiles_.across); ++u) {
-                            const std::size_t other = 2 * (v * tiles_.across + u) + (1 - set);
-                            const double w = weights[(v != y) + (u != x)];
-                            sum += w * errors_[other], weight += w * pixels_[other];
-                        }
-                    seen[2 * (y * tiles_.across + x) + set] = weight > 0 ? sum / weight : 0.0;
-                }
-        return seen;
-    }
 
     /// As many samples in proportion to `share` as the mean asks for. Each colour of the chessboard has its
     /// own budget: shared, a set's own samples would decide by way of the sum.
@@ -105,19 +105,25 @@ class Planner {
     }
 };
 
-/// The closest to `wanted` of `have` and the numbers of samples at which points lie best.
+/// The most that a set may hold at the end of a round: a step more, or as many steps as most_growth allows.
+std::uint32_t most_after(std::uint32_t have, unsigned step) {
+    return have + std::max(1u, unsigned((most_growth - 1) * have / step)) * step;
+}
+
+/// The closest to `wanted` of `have`, the most that is allowed, and the numbers between them at which points
+/// lie best.
 std::uint32_t well_placed(std::uint32_t have, double wanted, unsigned step) {
-    const double most = std::max<double>(have + step, most_growth * have);
+    const std::uint32_t most = most_after(have, step);
     std::uint32_t best = have;
-    const auto offer = [&](std::uint64_t steps) {
-        const std::uint64_t samples = steps * step + have % step;
-        if (samples > have && double(samples) <= most &&
+    const auto offer = [&](std::uint64_t samples) {
+        if (samples > have && samples <= most &&
             std::abs(double(samples) - wanted) < std::abs(double(best) - wanted))
             best = std::uint32_t(samples);
     };
+    offer(most);
     for (std::uint64_t power = 1; power * step <= most; power *= 2) {
-        offer(power);
-        if (power > 1) offer(power + power / 2);
+        offer(power * step + have % step);
+        if (power > 1) offer((power + power / 2) * step + have % step);
     }
     return best;
 }
@@ -158,11 +164,17 @@ Distribution distribute(unsigned width, unsigned height, const SetErrors& errors
                 samples = well_placed(have[i], fit, step);
             else
                 samples += std::uint32_t(std::max(0.0, std::floor((fit - have[i]) / step + 0.5))) * step;
+            if (by_noise) samples = std::min(samples, most_after(have[i], step));
             carry -= double(pixels[i]) * (samples - have[i]);
         }
     }
-    if (result.samples == have)  // less than a step for every set: the noisiest gets one
-        result.samples[std::size_t(std::ranges::max_element(errors) - errors.begin())] += step;
+    if (result.samples == have) {  // less than a step for every set: the noisiest gets one
+        const std::vector<double> noise = planner.seen_by_others();
+        std::size_t noisiest = 0;
+        for (std::size_t i = 1; i < have.size(); ++i)
+            if (pixels[i] > 0 && noise[i] > noise[noisiest]) noisiest = i;
+        result.samples[noisiest] += step;
+    }
     return result;
 }
 

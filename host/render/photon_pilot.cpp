@@ -72,9 +72,9 @@ struct Blocks {
     std::size_t width_, across_;
 };
 
-/// The photons' part of the relMSE of `many`. Both have the same paths: what differs is the photons' noise,
-/// of the one and of the other. (The difference of their errors says as much in the mean, but nothing of
-/// specks that one of a thousand photons makes.)
+/// The photons' part of the relMSE of `many`. Both have the same paths, and the few photons are the first of
+/// the many: what differs is photons' noise. (The difference of their errors says as much in the mean, but
+/// nothing of specks that one of a thousand photons makes.)
 double photon_part(const Film& many, const Film& few) {
     const HalfMeans a = *half_means(many), b = *half_means(few);
     const Blocks blocks(many);
@@ -85,7 +85,7 @@ double photon_part(const Film& many, const Film& few) {
         const double mean = blocks.means[at] / blocks.pixels[at];
         sum += d * d / (mean * mean + 0.01);
     }
-    return sum / double(a.first.size()) / (1 + 1 / few_photons);
+    return sum / double(a.first.size()) / (1 / few_photons - 1);
 }
 
 RenderSettings small_picture(const RenderSettings& settings) {

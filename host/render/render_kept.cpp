@@ -12,13 +12,13 @@ constexpr double share_of_writes = 0.01;
 }  // namespace
 
 void RenderLoop::go_on_from(const FilmProgress& progress) {
+    round_ = progress.rays;
     if (!goal_.adaptive && goal_.error == 0) return;  // all sets get all that is asked for
     for (const auto& [samples, relmse] : progress.estimates) {
         estimates_.emplace_back(samples, relmse);
         schedule_.add_estimate(samples, relmse);
         trend_.add(samples_before_ + samples, relmse);
     }
-    round_ = progress.rays;
     if (goal_.set_errors) {
         if (progress.set_errors.empty()) return;  // still at the first samples, by which it is asked first
         goal_.set_errors->go_on_from(progress.set_errors);

@@ -17,11 +17,11 @@ constexpr double reached = 1.02;
 constexpr double missable = 0.02;
 
 /// Where a round ends on the way to an error: where `end` is close to a power of two samples in every bin, or
-/// to one and a half times that, there, since points of a sequence lie best; more than `samples`.
+/// to one and a half times that, there, since points of a sequence lie best; clearly more than `samples`.
 double well_placed(double end, double samples, double bins) {
     const double power = bins * std::exp2(std::floor(std::log2(end / bins)));
     for (const double number : {power, 1.5 * power, 2 * power})
-        if (number > samples && number >= 0.87 * end && number <= 1.05 * end) return number;
+        if (number >= 1.01 * samples && number >= 0.87 * end && number <= 1.05 * end) return number;
     return end;
 }
 

@@ -89,8 +89,8 @@ class Schedule {
 
     /// Until the time that was asked for is over; infinite when none was.
     double time_left(double seconds) const;
-    /// Whether the render may end within a sample, on part of the picture: where sampling is adaptive, and
-    /// where whole samples take so long that ending after one would miss the time asked for.
+    /// Whether the render may end within a sample, on part of the picture, for the time asked for: where
+    /// sampling is adaptive, and where whole samples take so long that ending after one would miss that time.
     bool may_end_within_sample(double samples, double seconds) const;
     /// What the end of a sample takes at least, in seconds, however much of the picture it goes to.
     void set_least_step(double seconds) { least_step_ = seconds; }

@@ -81,8 +81,8 @@ TEST(PhotonCommand, the_classic_map_tells_the_time_of_its_phases) {
     }
 }
 
-// A share of photons that a pilot hardly meets makes white specks in the picture, three to thirty times its
-// error.
+// A share of photons that a pilot hardly meets makes white specks in the picture, up to fifty
+// times its error.
 TEST(PhotonCommand, no_share_of_photons_is_taken_whose_specks_cost_more_than_they_bring) {
     const std::string out = (fs::path(testing::TempDir()) / "metals.png").string();
     for (const std::string size : {"128x72", "320x180"}) {

@@ -187,6 +187,20 @@ TEST(Adaptive, no_set_loses_starves_or_takes_all) {
     }
 }
 
+TEST(Adaptive, what_rounding_leaves_over_is_no_sets_alone) {
+    const Film film = sized(480, 272);
+    std::vector<float> errors(film.pixels());
+    for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p / 480 >= 248 ? 4.0f : 0.001f;
+    for (const std::uint32_t had : {22u, 40u, 64u, 100u}) {
+        const SetSamples have(2 * 60 * 34, had);
+        const SetErrors s = relmse_of_sets(film, errors, have);
+        const Distribution given = distribute(480, 272, s, have, 2 * had, 2);
+        EXPECT_TRUE(given.by_noise);
+        EXPECT_LE(*std::ranges::max_element(given.samples), 4 * had) << had;
+        EXPECT_EQ(given.samples[2 * 60 * 33 + 60], 4 * had) << "a noisy one";
+    }
+}
+
 TEST(Adaptive, something_is_given_even_when_it_is_less_than_a_step) {
     const Film film = sized(9, 1);  // the second tile has one pixel: its other set has none
     const std::vector<float> errors(film.pixels(), 1.0f);
