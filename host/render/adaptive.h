@@ -29,7 +29,8 @@ struct Distribution {
 /// The sum over sets of s / n at a given sum of n is least for n proportional to sqrt(s); a set's s is what
 /// the others around show, so that no set decides for itself. A set gets a power of two of steps, or one and
 /// a half times that, where the points of a sequence lie best. Samples go everywhere where those that go by
-/// noise do not promise to lower the error faster by rays; of these they take `dearer` times as many.
+/// noise do not promise to lower the error faster by rays; of these they take `dearer` times as many. 0: they
+/// go by noise, whatever it promises.
 Distribution distribute(unsigned width, unsigned height, const SetErrors& errors, const SetSamples& have,
                         double mean, unsigned step, double dearer = 1);
 

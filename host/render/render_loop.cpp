@@ -125,7 +125,8 @@ SetSamples RenderLoop::wanted_at(double end) {
     if (!set_errors_.empty()) {
         // Beside the camera's, which cost next to nothing where they meet nothing.
         const double noisy = round_.noisy - 1, everywhere = round_.everywhere - 1;
-        const double dearer = noisy > 0 && everywhere > 0 ? noisy / everywhere : 1.0;
+        double dearer = noisy > 0 && everywhere > 0 ? noisy / everywhere : 1.0;
+        if (!goal_.where_worth_it) dearer = 0;
         Distribution next = distribute(film().width, film().height, set_errors_, have_, end,
                                        unsigned((goal_.set_errors ? 1 : 2) * film().bins()), dearer);
         round_.by_noise = next.by_noise;

@@ -17,11 +17,13 @@ constexpr double reached = 1.02;
 constexpr double missable = 0.02;
 
 /// Where a round ends on the way to an error: where `end` is close to a power of two samples in every bin, or
-/// to one and a half times that, there, since points of a sequence lie best; clearly more than `samples`.
+/// to one and a half times that, there, since points of a sequence lie best; clearly more than `samples`, and
+/// not of the first few, where estimates are too noisy for longer steps.
 double well_placed(double end, double samples, double bins) {
     const double power = bins * std::exp2(std::floor(std::log2(end / bins)));
-    for (const double number : {power, 1.5 * power, 2 * power})
-        if (number >= 1.01 * samples && number >= 0.87 * end && number <= 1.05 * end) return number;
+    for (const double number : {1.5 * power, power})
+        if (number >= 16 * bins && number >= 1.01 * samples && number >= 0.87 * end && number <= end)
+            return number;
     return end;
 }
 

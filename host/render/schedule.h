@@ -26,10 +26,11 @@ struct KeptFilm {
 
 /// What a render is to reach. Whichever comes first ends it.
 struct RenderGoal {
-    SampleRange samples;    ///< at most these; adaptive: as many per pixel on average
-    double error = 0;       ///< estimated relMSE of the picture; 0: not asked for
-    double seconds = 0;     ///< of rendering; 0: not asked for
-    bool adaptive = false;  ///< samples go where they lower the error most (render/adaptive.h)
+    SampleRange samples;          ///< at most these; adaptive: as many per pixel on average
+    double error = 0;             ///< estimated relMSE of the picture; 0: not asked for
+    double seconds = 0;           ///< of rendering; 0: not asked for
+    bool adaptive = false;        ///< samples go where they lower the error most (render/adaptive.h)
+    bool where_worth_it = false;  ///< adaptive: only where that promises enough, else everywhere
     /// The perceived error's share that more samples lower, of a film, for reports; empty: not wanted. None:
     /// not known yet.
     std::function<std::optional<double>(const Film&)> perceived_noise;

@@ -13,7 +13,8 @@ RenderGoal RenderRequest::goal() const {
     return {.samples = samples.value_or(SampleRange{0, limit}),
             .error = error.value_or(0),
             .seconds = time.value_or(0),
-            .adaptive = adaptive.value_or(ends_itself)};
+            .adaptive = adaptive.value_or(ends_itself),
+            .where_worth_it = !adaptive};
 }
 
 std::vector<std::string> RenderRequest::outputs_named() const {

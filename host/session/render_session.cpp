@@ -180,7 +180,10 @@ RenderSession::RenderSession(RenderRequest request, std::optional<LoadedScene> l
     const CurrentDevice device = [this]() -> Device& { return renderer_->device(); };
     goal_.perceived_noise = [noise = PerceivedNoise(device, panel->panel, panel->ppd, display)](
                                 const Film& film) { return noise.of(film); };
-    if (goal_.error == 0) goal_.set_errors = perceived_sets(device, *panel, display);
+    if (goal_.error == 0) {
+        goal_.set_errors = perceived_sets(device, *panel, display);
+        goal_.where_worth_it = false;  // what that takes was measured of relMSE alone
+    }
 }
 
 /// What is damaged of the film is rendered again.

@@ -87,10 +87,10 @@ TEST(Schedule, an_error_is_sought_where_points_lie_well) {
     const auto samples_for = [](double error) {
         return follow({.samples = {0, no_limit}, .error = error}, {.slope = -1}).samples;
     };
-    EXPECT_EQ(samples_for(1 / 63.5), 64);
-    EXPECT_EQ(samples_for(1 / 93.0), 96);
     EXPECT_EQ(samples_for(1 / 64.9), 64) << "less than two percent above the error";
+    EXPECT_EQ(samples_for(1 / 97.5), 96);
     EXPECT_EQ(samples_for(1 / 80.0), 80) << "none is near";
+    EXPECT_EQ(samples_for(1 / 63.0), 63) << "not beyond what is asked for";
 }
 
 TEST(Schedule, estimates_that_scatter_do_not_move_the_error_reached) {
