@@ -40,7 +40,9 @@ void declare_goals(CLI::App& command, RenderRequest& o) {
         ->type_name("S")
         ->group(samples_group);
     add_switch(command, "--adaptive",
-               "Send samples where they lower the error most (default: with --error or --time, where it is worth it)", o.adaptive)
+               "Send samples where they lower the error most (default: with --error or --time, "
+               "where it is worth it)",
+               o.adaptive)
         ->group(samples_group);
 }
 

@@ -21,8 +21,8 @@ constexpr double missable = 0.02;
 /// not of the first few, where estimates are too noisy for longer steps.
 double well_placed(double end, double samples, double bins) {
     const double power = bins * std::exp2(std::floor(std::log2(end / bins)));
-    for (const double number : {1.5 * power, power})
-        if (number >= 16 * bins && number >= 1.01 * samples && number >= 0.87 * end && number <= end)
+    for (const double number : {power, 1.5 * power, 2 * power})
+        if (number >= 16 * bins && number >= 1.01 * samples && number >= 0.87 * end && number <= 1.05 * end)
             return number;
     return end;
 }

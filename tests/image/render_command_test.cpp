@@ -255,7 +255,7 @@ TEST(RenderCommand, an_error_or_a_time_ends_it_and_the_metadata_say_how) {
         return std::pair{read_picture(folder / "a.exr"),
                          json::parse(bytes_of(folder / "a.json")).at("rows").at(0)};
     };
-    const auto [picture, row] = render("--error 0.05");
+    const auto [picture, row] = render("--error 0.05 --adaptive on");
     EXPECT_EQ(row.at("stopped_by"), "error");
     EXPECT_LE(row.at("relmse").get<double>(), 1.02 * 0.05);
     EXPECT_EQ(picture.metadata.at("triad:stopped_by"), "error");

@@ -90,7 +90,9 @@ TEST(Schedule, an_error_is_sought_where_points_lie_well) {
     EXPECT_EQ(samples_for(1 / 64.9), 64) << "less than two percent above the error";
     EXPECT_EQ(samples_for(1 / 97.5), 96);
     EXPECT_EQ(samples_for(1 / 80.0), 80) << "none is near";
-    EXPECT_EQ(samples_for(1 / 63.0), 63) << "not beyond what is asked for";
+    EXPECT_EQ(samples_for(1 / 63.0), 64);
+    EXPECT_EQ(samples_for(1 / 7.5), 8) << "few samples: by the error alone";
+    EXPECT_EQ(samples_for(1 / 11.0), 11);
 }
 
 TEST(Schedule, estimates_that_scatter_do_not_move_the_error_reached) {
