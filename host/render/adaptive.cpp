@@ -15,9 +15,8 @@ constexpr double least_share = 0.25;
 constexpr double most_growth = 4.0;
 /// Weights of a tile, of its neighbours by an edge, and by a corner, when a set's error is estimated.
 constexpr double weights[3] = {4.0, 1.0, 0.5};
-/// Samples go where noise is if the error then falls so many times as steeply: what is
-/// foreseen from few samples is more than what comes, and doubling all samples lowers the error by more than
-/// half.
+/// Samples go where noise is if the error then falls so many times as steeply: what is foreseen from few
+/// samples is more than what comes, and doubling all samples lowers the error by more than half.
 constexpr double worth_it = 1.35;
 
 struct Tiles {
