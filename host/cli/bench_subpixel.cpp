@@ -129,8 +129,7 @@ class Subjects {
 
     std::unique_ptr<SubpixelSource> sampled(const fs::path& path) {
         if (!device_) device_ = std::make_unique<Device>(Device::open({.selector = o_.device}));
-        return sampled_source(*device_, path.string(), display_of(path.string(), read_picture(path)),
-                              o_.synthetic_samples);
+        return sampled_source(*device_, path.string(), display_of(read_picture(path)), o_.synthetic_samples);
     }
 };
 

@@ -79,7 +79,7 @@ Compared read(const CompareOptions& o) {
     if (values[0].empty())
         throw Error(Exit::comparison,
                     "The pictures " + o.picture + " and " + o.reference + " have no channel in common.");
-    compared.display = {display_of(o.picture, a), display_of(o.reference, b)};
+    compared.display = {display_of(a), display_of(b)};
     return compared;
 }
 

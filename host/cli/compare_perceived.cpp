@@ -11,7 +11,6 @@
 #include "cli/error_map.h"
 #include "cli/option_kinds.h"
 #include "panel/perceived.h"
-#include "session/output.h"
 #include "session/panel_file.h"
 
 namespace triad {
@@ -25,7 +24,7 @@ struct Shown {
 
 Shown open(const std::string& path) {
     Shown shown{path, read_picture(path), {}};
-    shown.light = display_of(path, shown.file);
+    shown.light = display_of(shown.file);
     if (shown.light.rgb.empty())
         throw Error(Exit::comparison, "A perceived error needs R, G and B; " + path + " lacks some.");
     return shown;
@@ -91,14 +90,14 @@ void write_map(const std::string& path, const PerceivedError& error, const Metad
 
 }  // namespace
 
-RgbImage display_of(const std::string& path, const Picture& picture) {
+RgbImage display_of(const Picture& picture) {
     const Channel* channels[] = {picture.find("R"), picture.find("G"), picture.find("B")};
     RgbImage image;
     if (std::count(channels, channels + 3, nullptr) > 0) return image;
     image = {picture.width, picture.height, std::vector<float>(channels[0]->values.size() * 3)};
     for (std::size_t i = 0; i < image.rgb.size(); ++i) {
         const float v = channels[i % 3]->values[i / 3];
-        image.rgb[i] = is_linear(path) ? v : float(srgb_decode(v));
+        image.rgb[i] = picture.encoded ? float(srgb_decode(v)) : v;
     }
     return image;
 }

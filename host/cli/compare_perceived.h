@@ -23,7 +23,7 @@ void declare_perceived(CLI::App& command, PerceivedOptions& options);
 
 /// What a display shows: files of 8 and 16 bits are sRGB, others are taken as display-linear, without a tone
 /// map. Empty where R, G or B is missing.
-RgbImage display_of(const std::string& path, const Picture& picture);
+RgbImage display_of(const Picture& picture);
 
 /// The one of the two files with more pixels is the reference, in whichever order. Prints a line for each
 /// eye, writes the maps and returns the row of the JSON file; `failures` gets a sentence when the first eye's

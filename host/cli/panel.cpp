@@ -46,7 +46,7 @@ TapTable taps_of(const PanelOptions& o, const Panel& panel, double ppd) {
 
 /// The picture, or the part of it that --crop names.
 RgbImage drives_of(const PanelOptions& o) {
-    RgbImage whole = display_of(o.picture, read_picture(o.picture));
+    RgbImage whole = display_of(read_picture(o.picture));
     if (whole.rgb.empty()) throw Error(Exit::scene, o.picture + " lacks R, G or B.");
     if (!o.crop) return whole;
     const auto& [left, top, width, height] = *o.crop;

@@ -18,8 +18,6 @@ OIIO::TypeDesc type_of(Sample sample) {
             return OIIO::TypeDesc::UINT8;
         case Sample::u16:
             return OIIO::TypeDesc::UINT16;
-        case Sample::f16:
-            return OIIO::TypeDesc::HALF;
         case Sample::f32:
             break;
     }
@@ -101,8 +99,7 @@ std::string Input::complaint() {
 void Input::read_bands(Sample as, const std::function<void(unsigned, unsigned, const std::uint8_t*)>& take) {
     const OIIO::TypeDesc type = type_of(as);
     const std::size_t row = std::size_t(spec_.width) * spec_.nchannels * type.size();
-    const bool tiled = spec_.tile_width > 0;
-    const int band = tiled ? spec_.tile_height : 64;
+    constexpr int band = 64;
     // read_scanlines() of OpenImageIO 2.4 takes memory for 256 rows, however few it reads.
     constexpr std::size_t widest_of_many = std::size_t(1) << 18;
     std::vector<std::uint8_t> values(row * std::min(band, spec_.height));
@@ -111,10 +108,7 @@ void Input::read_bands(Sample as, const std::function<void(unsigned, unsigned, c
         attempt([&](const char* what) { fail(what); },
                 [&] {
                     bool read = true;
-                    if (tiled)
-                        read = input_->read_tiles(0, 0, spec_.x, spec_.x + spec_.width, first, first + rows,
-                                                  0, 1, 0, spec_.nchannels, type, values.data());
-                    else if (row <= widest_of_many)
+                    if (row <= widest_of_many)
                         read = input_->read_scanlines(0, 0, first, first + rows, 0, 0, spec_.nchannels, type,
                                                       values.data());
                     else

@@ -3,16 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/log.h"
 #include "base/memory_limit.h"
-#include "io/exr_header.h"
-#include "io/image_container.h"
-#include "io/image_formats.h"
 #include "io/io.h"
+#include "io/linear_decode.h"
 
 namespace triad {
 namespace {
@@ -33,47 +30,52 @@ std::array<std::size_t, 3> colour_channels(const std::string& name,
                 "Environment " + name + " has neither channels R, G, B nor Y; it has " + list + ".");
 }
 
-}  // namespace
-
-EnvironmentMap load_environment(const std::filesystem::path& path, bool strict) {
-    const std::string name = path.string();
-    std::vector<std::uint8_t> bytes = read_file(path);
-    const ImageFormat format = sniff(bytes);
-    if (format == ImageFormat::exr) {
-        bytes = clean_exr(name, bytes).bytes;
-    } else if (format == ImageFormat::hdr) {
-        bytes = clean_hdr(name, bytes).bytes;
-    } else {
-        throw Error(Exit::scene, "Environment " + name + " is neither Radiance .hdr nor OpenEXR.");
-    }
-    const auto reader =
-        image_formats::loaded().read(name, format == ImageFormat::exr ? "openexr" : "hdr", bytes);
-    const image_formats::Layout& layout = reader->layout();
-    const std::size_t channels = layout.channels.size();
-    const auto rgb = colour_channels(name, layout.channels);
-    EnvironmentMap map{layout.width, layout.height, {}};
-    require_memory(std::uint64_t(map.width) * map.height * 3 * sizeof(float), "Environment " + name);
-    map.rgb.reserve(std::size_t(map.width) * map.height * 3);
+/// What `decode` hands on of these channels, as a map.
+EnvironmentMap environment_of(const std::string& name, unsigned width, unsigned height,
+                              const std::vector<std::string>& channels, bool strict, const auto& decode) {
+    const auto rgb = colour_channels(name, channels);
+    EnvironmentMap map{width, height, {}};
+    require_memory(std::uint64_t(width) * height * 3 * sizeof(float), "Environment " + name);
+    map.rgb.reserve(std::size_t(width) * height * 3);
     std::size_t repaired = 0;
-    const auto take = [&](unsigned, unsigned rows, const std::uint8_t* values) {
-        for (std::size_t i = 0; i < std::size_t(rows) * map.width; ++i) {
+    decode([&](unsigned rows, const float* values) {
+        for (std::size_t i = 0; i < std::size_t(rows) * width; ++i) {
             bool bad = false;
             for (const std::size_t c : rgb) {
-                float v;
-                std::memcpy(&v, values + (i * channels + c) * sizeof v, sizeof v);
+                const float v = values[i * channels.size() + c];
                 const bool good = v >= 0.0f && std::isfinite(v);
                 bad = bad || !good;
                 map.rgb.push_back(good ? v : 0.0f);
             }
             repaired += bad;
         }
-    };
-    reader->read_bands(image_formats::Sample::f32, take);
+    });
     const std::string fault = "environment " + name + ": " + std::to_string(repaired) +
                               " texels are negative or not finite; those values are taken as 0";
     if (repaired > 0 && strict) throw Error(Exit::scene, fault + " without --strict.");
     if (repaired > 0) warn(fault);
     return map;
+}
+
+}  // namespace
+
+EnvironmentMap load_environment(const std::filesystem::path& path, bool strict) {
+    const std::string name = path.string();
+    const std::vector<std::uint8_t> bytes = read_file(path);
+    switch (sniff(bytes)) {
+        case ImageFormat::exr: {
+            const CleanExr exr = clean_exr(name, bytes);
+            return environment_of(name, exr.width, exr.height, exr.channels, strict,
+                                  [&](const TakeRows& take) { decode_exr(name, exr, take); });
+        }
+        case ImageFormat::hdr: {
+            const CleanImage hdr = clean_hdr(name, bytes);
+            return environment_of(name, hdr.width, hdr.height, {"R", "G", "B"}, strict,
+                                  [&](const TakeRows& take) { decode_hdr(name, hdr, take); });
+        }
+        default:
+            throw Error(Exit::scene, "Environment " + name + " is neither Radiance .hdr nor OpenEXR.");
+    }
 }
 
 }  // namespace triad

@@ -12,7 +12,6 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +20,13 @@
 #include <new>
 #include <set>
 #include <stdexcept>
-#include <system_error>
 
 #include "base/error.h"
-#include "base/parallel_for.h"
 #include "io/io.h"
+#include "io/linear_decode.h"
 
 namespace triad {
 namespace {
-
-/// From so many samples on they are compressed by several threads.
-constexpr std::size_t many_samples = std::size_t(1) << 20;
 
 /// Depths, positions, counts and weights lose their meaning in half precision.
 bool must_be_float(const std::string& channel) {
@@ -129,15 +124,6 @@ std::vector<half> halves(const std::vector<float>& values, std::size_t& saturate
     return result;
 }
 
-/// As many as there are to be, or as a limit of the shell allows.
-void start_threads() {
-    try {
-        for (int threads = Imf::globalThreadCount(); threads < int(host_threads()); ++threads)
-            Imf::setGlobalThreadCount(threads + 1);
-    } catch (const std::system_error&) {  // fewer do all the same
-    }
-}
-
 }  // namespace
 
 std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half_precision, std::size_t* saturated) {
@@ -159,8 +145,8 @@ std::vector<std::uint8_t> encode_exr(const Picture& picture, bool half_precision
                 add(channel.name, Imf::HALF, narrow.emplace_back(halves(channel.values, count)).data());
             else
                 add(channel.name, Imf::FLOAT, channel.values.data());
-        if (picture.channels.size() * picture.channels.front().values.size() >= many_samples) start_threads();
-        Imf::OutputFile output(file, header, Imf::globalThreadCount());
+        Imf::OutputFile output(file, header,
+                               exr_threads(picture.channels.size() * picture.channels.front().values.size()));
         output.setFrameBuffer(buffer);
         output.writePixels(int(picture.height));
     } catch (const std::bad_alloc&) {

@@ -225,13 +225,15 @@ CleanImage clean_image(const std::string& name, Span b) {
 
 CleanImage clean_webp_colour(const std::string& name, Span b) { return clean_webp(name, b, false); }
 
-/// Radiance picture format (Ward): text lines up to an empty one, then "-Y height +X width".
+/// Radiance picture format (Ward): text lines up to an empty one, then "-Y height +X width", then pixels.
 CleanImage clean_hdr(const std::string& name, Span b) {
     const std::string_view text(reinterpret_cast<const char*>(b.data()),
                                 std::min<std::size_t>(b.size(), 65536));
     const std::size_t blank = text.find("\n\n");
     const std::size_t end = blank == text.npos ? blank : text.find('\n', blank + 2);
     if (end == text.npos) refuse(name, "its Radiance header has no end");
+    if (text.substr(0, blank + 1).find("\nFORMAT=32-bit_rle_xyze\n") != text.npos)
+        refuse(name, "its colours are XYZ; save it as RGBE");
     unsigned width = 0, height = 0;
     int used = 0;
     const std::string line(text.substr(blank + 2, end - blank - 2));
@@ -241,8 +243,9 @@ CleanImage clean_hdr(const std::string& name, Span b) {
                "it is not stored from the top left, row by row (its Radiance header must say -Y height +X "
                "width)");
     check_size(name, width, height);
-    if ((b.size() - end) / 4 < height) refuse(name, "its data are too short for the size in its header");
-    return {ImageFormat::hdr, width, height, {b.begin(), b.end()}};
+    const Span pixels = b.subspan(end + 1);
+    if (pixels.size() / 4 < height) refuse(name, "its data are too short for the size in its header");
+    return {ImageFormat::hdr, width, height, {pixels.begin(), pixels.end()}};
 }
 
 }  // namespace triad

@@ -35,7 +35,7 @@ CleanImage clean_image(const std::string& name, std::span<const std::uint8_t> by
 /// colours are decoded apart.
 CleanImage clean_webp_colour(const std::string& name, std::span<const std::uint8_t> bytes);
 
-/// Checks the header of Radiance .hdr bytes; the bytes are kept as they are. Throws Error(scene).
+/// The pixels of a Radiance .hdr, without its header. Throws Error(scene).
 CleanImage clean_hdr(const std::string& name, std::span<const std::uint8_t> bytes);
 
 }  // namespace triad

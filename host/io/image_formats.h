@@ -1,6 +1,6 @@
 #pragma once
-/// What reads and writes pictures as files, from and to memory: OpenImageIO, behind a border without its
-/// types. It lies in a library of its own, triad-images (host/images), that is loaded for the first picture:
+/// What reads PNG, JPEG and WebP and writes JPEG and HDR, from and to memory: OpenImageIO, behind a border
+/// without its types. It lies in a library of its own, triad-images (host/images), that is loaded for the first picture:
 /// the 230 libraries that it brings take longer to start than a small picture takes to render.
 #include <cstdint>
 #include <functional>
@@ -14,7 +14,7 @@
 namespace triad::image_formats {
 
 /// A channel's type in a file or in memory. Integers are 0 to 1 as float.
-enum class Sample { u8, u16, f16, f32 };
+enum class Sample { u8, u16, f32 };
 
 /// What a file says of its picture.
 struct Layout {

@@ -73,8 +73,6 @@ void write_standard_output(const std::vector<std::uint8_t>& bytes) {
 
 bool is_exr(const std::string& path) { return extension_of(path) == ".exr"; }
 
-bool is_linear(const std::string& path) { return is_linear_format(extension_of(path)); }
-
 void prepare_to_write(const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
         if (const std::string extension = extension_of(path); extension != ".png" && extension != ".exr")

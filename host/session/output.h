@@ -31,8 +31,6 @@ void prepare_to_write(const std::vector<std::string>& paths);
 bool is_exr(const std::string& path);
 /// Whether the extension is that of a picture.
 bool is_picture(const std::string& path);
-/// Whether the extension is that of a format of linear values.
-bool is_linear(const std::string& path);
 /// Throws Error(usage) when `path` ("-" is standard output, as PNG) has no extension of a picture.
 void check_format(const std::string& path);
 /// What only files that can say so may hold: Throws Error(usage) for drives of a panel in a .hdr file.

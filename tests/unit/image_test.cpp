@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <random>
 
@@ -228,100 +226,4 @@ TEST(Image, known_hostile_files_end_in_a_picture_or_a_sentence) {
         ++files;
     }
     EXPECT_GT(files, 20);
-}
-
-namespace {
-
-/// A .hdr of these RGBE texels, flat (uncompressed).
-void write_flat_hdr(const std::filesystem::path& path, unsigned width, unsigned height, const Bytes& rgbe) {
-    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " + std::to_string(height) + " +X " +
-                               std::to_string(width) + "\n";
-    std::ofstream(path, std::ios::binary) << header << std::string(rgbe.begin(), rgbe.end());
-}
-
-}  // namespace
-
-TEST(Environment, flat_hdr) {
-    const TemporaryFolder folder;
-    write_flat_hdr(folder / "a.hdr", 2, 1, {128, 64, 32, 129, 0, 0, 0, 0});
-    const EnvironmentMap map = load_environment(folder / "a.hdr");
-    EXPECT_EQ(map.width, 2u);
-    EXPECT_EQ(map.height, 1u);
-    // Ward: (mantissa + .5) 2^(e - 136), of which readers keep or drop the half.
-    EXPECT_NEAR(map.rgb[0], 1.0, 0.005);
-    EXPECT_NEAR(map.rgb[1], 0.5, 0.005);
-    EXPECT_NEAR(map.rgb[2], 0.25, 0.005);
-    EXPECT_EQ(map.rgb[3], 0.0f);
-}
-
-TEST(Environment, run_length_hdr_written_here_comes_back) {
-    const TemporaryFolder folder;
-    Picture picture;
-    picture.width = 64, picture.height = 32;
-    for (const char* name : {"R", "G", "B"}) picture.channels.push_back({name, std::vector<float>(64 * 32)});
-    for (std::size_t p = 0; p < 64 * 32; ++p)
-        for (std::size_t c = 0; c < 3; ++c)
-            picture.channels[c].values[p] = p % 64 < 40 ? 2.0f : float(p % 7 + 1) * float(c + 1);
-    write_hdr(folder / "a.hdr", picture);
-    EXPECT_LT(std::filesystem::file_size(folder / "a.hdr"), 64u * 32 * 4);  // it is compressed
-    const EnvironmentMap map = load_environment(folder / "a.hdr");
-    for (std::size_t p = 0; p < 64 * 32; ++p)
-        for (std::size_t c = 0; c < 3; ++c)
-            ASSERT_NEAR(map.rgb[p * 3 + c], picture.channels[c].values[p],
-                        picture.channels[0].values[p] * 3 / 128.0)
-                << p;
-}
-
-TEST(Environment, exr_negative_and_not_finite_texels_become_black) {
-    const TemporaryFolder folder;
-    Picture picture;
-    picture.width = 4, picture.height = 1;
-    picture.channels = {{"R", {-1.0f, 1.0f, NAN, 4.0f}},
-                        {"G", {2.0f, INFINITY, 1.0f, 5.0f}},
-                        {"B", {3.0f, 1.0f, 1.0f, 6.0f}}};
-    write_exr(folder / "a.exr", picture);
-    const EnvironmentMap map = load_environment(folder / "a.exr");
-    EXPECT_EQ(map.rgb, (std::vector<float>{0, 2, 3, 1, 0, 1, 0, 1, 1, 4, 5, 6}));
-}
-
-TEST(Environment, exr_with_a_single_y_is_grey_and_other_channels_are_refused) {
-    const TemporaryFolder folder;
-    Picture picture;
-    picture.width = 2, picture.height = 1;
-    picture.channels = {{"Y", {1.0f, 2.0f}}};
-    write_exr(folder / "y.exr", picture);
-    EXPECT_EQ(load_environment(folder / "y.exr").rgb, (std::vector<float>{1, 1, 1, 2, 2, 2}));
-    picture.channels[0].name = "depth.Z";
-    write_exr(folder / "z.exr", picture);
-    try {
-        load_environment(folder / "z.exr");
-        ADD_FAILURE();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("depth.Z"), std::string::npos) << error.what();
-    }
-}
-
-TEST(Environment, bombs_are_refused_by_their_header) {
-    const TemporaryFolder folder;
-    write_flat_hdr(folder / "bomb.hdr", 40000, 40000, Bytes(64, 2));
-    EXPECT_THROW(load_environment(folder / "bomb.hdr"), Error);
-    write_flat_hdr(folder / "short.hdr", 1000, 1000, Bytes(64, 2));
-    EXPECT_THROW(load_environment(folder / "short.hdr"), Error);
-}
-
-TEST(Environment, a_missing_file_is_named) {
-    try {
-        load_environment("no/such/sky.hdr");
-        ADD_FAILURE();
-    } catch (const Error& error) {
-        EXPECT_EQ(error.exit(), Exit::scene);
-        EXPECT_NE(std::string(error.what()).find("no/such/sky.hdr"), std::string::npos);
-    }
-}
-
-TEST(Environment, assets_have_the_size_that_their_names_say) {
-    const auto folder = test_assets() / "env";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no assets";
-    EXPECT_EQ(load_environment(folder / "venice_sunset_1k.hdr").width, 1024u);
-    EXPECT_EQ(load_environment(folder / "venice_sunset_256.hdr").width, 256u);
 }
