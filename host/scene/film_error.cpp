@@ -1,6 +1,7 @@
 /// The error of a film, from its two halves.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/parallel_for.h"
@@ -36,16 +37,17 @@ class HalfCounts {
     std::uint64_t bins_, common_, first_ = 0, end_ = 0;
 };
 
-/// Of one channel of one pixel: its mean, an unbiased estimate of that mean's variance, and the mean of its
-/// darker half.
-struct Estimate {
-    float mean = 0, variance = 0, darker = 0;
+/// Of every channel of every pixel: its mean, an unbiased estimate of that mean's variance, and the mean of
+/// its darker half.
+struct Estimates {
+    std::vector<float> mean, variance, darker;
 };
 
 /// Halves of nA and nB samples with means A and B have Var(A - B) = s^2 (1/nA + 1/nB), and the mean of all
 /// has s^2 / (nA + nB): so (A - B)^2 nA nB / (nA + nB)^2 is unbiased for it.
-std::vector<Estimate> estimate_pixels(const Film& film, const HalfCounts& halves) {
-    std::vector<Estimate> estimates(film.pixels() * 3);
+Estimates estimate_pixels(const Film& film, const HalfCounts& halves) {
+    const std::vector<float> none(film.pixels() * 3);
+    Estimates estimates{none, none, none};
     const double quantum = std::ldexp(1.0, -film.quanta_log2);
     parallel_for(film.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
@@ -57,25 +59,25 @@ std::vector<Estimate> estimate_pixels(const Film& film, const HalfCounts& halves
             for (std::size_t c = 0; c < 3; ++c) {
                 const double sum = double(film.half_sums[p * 3 + c]) * quantum;
                 const double a = sum / first, b = (mean[c] * count - sum) / second;
-                estimates[p * 3 + c] = {float(mean[c]), float(weight * (a - b) * (a - b)),
-                                        float(std::min(a, b))};
+                estimates.mean[p * 3 + c] = float(mean[c]);
+                estimates.variance[p * 3 + c] =
+                    float(std::min<double>(weight * (a - b) * (a - b), std::numeric_limits<float>::max()));
+                estimates.darker[p * 3 + c] = float(std::min(a, b));
             }
         }
     });
     return estimates;
 }
 
-/// Sums over pixels: how many, their means, the squares of these, their variances.
-struct Window {
-    double pixels = 0, mean = 0, square = 0, variance = 0;
-
-    void add(const Window& w, double sign = 1.0) {
-        pixels += sign * w.pixels, mean += sign * w.mean, square += sign * w.square,
-            variance += sign * w.variance;
-    }
+/// One of them.
+struct Estimate {
+    float mean, variance, darker;
 };
 
-Window window_of(const Estimate& e) { return {1.0, e.mean, double(e.mean) * e.mean, e.variance}; }
+/// Sums over pixels: how many, their means, the squares of these, their variances.
+struct Window {
+    double pixels, mean, square, variance;
+};
 
 /// 1 / (r^2 + .01), r the unknown true value. The pixel's own noisy mean will not do alone: it is correlated
 /// with the variance estimate (where a bright path was found both are too high), which makes the error look
@@ -84,52 +86,111 @@ Window window_of(const Estimate& e) { return {1.0, e.mean, double(e.mean) * e.me
 /// content rather than noise. Of a pixel whose halves differ by far more than its neighbours' do, the darker
 /// half is taken: a rare bright path is in the other one, and would hide itself in its own denominator.
 double inverse_square(const Estimate& own, const Window& neighbours) {
-    const auto inverse = [](double r) { return 1.0 / (r * r + 0.01); };
+    const auto square = [](double r) { return r * r; };
     const double n = neighbours.pixels;
-    if (n < 2.0 || own.variance == 0.0f) return inverse(own.mean);
+    if (n < 2.0 || own.variance == 0.0f) return 1.0 / (square(own.mean) + 0.01);
     const double mean = neighbours.mean / n, noise = neighbours.variance / n;
     const double spread = (neighbours.square - n * mean * mean) / (n - 1.0);
     double content = std::max(0.0, spread - noise);
     // 20 and .05 were found on 14 scenes at 16 and 64 samples, where a factor of two changes few medians by a
     // tenth.
-    const double excess = own.variance / (20.0 * (noise + 0.05 * content));
-    const double rare = std::isfinite(excess * excess) ? excess * excess / (1.0 + excess * excess) : 1.0;
-    const double value = std::lerp(double(own.mean), double(own.darker), rare);
-    const double value_noise = std::lerp(double(own.variance), 2.0 * noise, rare);
+    const double usual = 20.0 * (noise + 0.05 * content), variance = own.variance;
+    const double rare = square(variance) / (square(variance) + square(usual));
+    const double value = own.mean + rare * (double(own.darker) - own.mean);
+    const double value_noise = variance + rare * (2.0 * noise - variance);
     // A bright pixel among dark ones is content that they do not show; a dark one may have missed its light.
-    if (value > mean) content = std::max(content, (value - mean) * (value - mean) - value_noise);
+    content = std::max(content, square(std::max(0.0, value - mean)) - value_noise);
     const double sum = content + value_noise;
-    const double share = sum > 0.0 ? content / sum : 1.0;
-    return std::lerp(inverse(mean), inverse(value), share);
+    // The two inverses blended, as one fraction: a, b and sum are far from a double's ends.
+    const double a = square(mean) + 0.01, b = square(value) + 0.01;
+    return sum > 0.0 ? (value_noise * b + content * a) / (a * b * sum) : 1.0 / b;
 }
 
-/// Sums of the columns of a window, apart for its even and its odd rows.
-using Columns = std::array<std::vector<Window>, 2>;
+/// Such sums for every channel of a row, but for how many, with room for the widest window beyond both ends.
+class RowOfSums {
+  public:
+    static constexpr std::size_t room = 3 * 3;  ///< pixels times channels
 
-/// Errors of the pixels of row y, neighbours taken from 5 x 5 pixels (of one set: 7 x 7, as many). `columns`:
-/// room for a Window per pixel and channel.
-void errors_of_row(const Film& film, const std::vector<Estimate>& estimates, std::size_t y, Neighbours which,
-                   Columns& columns, float* errors) {
-    const std::size_t radius = which == Neighbours::all ? 2 : 3;
-    const std::size_t width = film.width, row = width * 3;
-    for (std::vector<Window>& sums : columns) std::fill(sums.begin(), sums.end(), Window{});
-    for (std::size_t v = y - std::min(y, radius); v < std::min<std::size_t>(y + radius + 1, film.height); ++v)
-        for (std::size_t i = 0; i < row; ++i) columns[v & 1][i].add(window_of(estimates[v * row + i]));
-    for (std::size_t x = 0; x < width; ++x) {
-        double sum = 0.0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const Estimate& own = estimates[y * row + x * 3 + c];
-            Window neighbours;
-            for (std::size_t u = x - std::min(x, radius); u < std::min(x + radius + 1, width); ++u)
-                for (std::size_t odd = 0; odd < 2; ++odd)
-                    if (which == Neighbours::all || odd == ((x ^ y ^ u) & 1))
-                        neighbours.add(columns[odd][u * 3 + c]);
-            neighbours.add(window_of(own), -1.0);
-            sum += own.variance * inverse_square(own, neighbours);
-        }
-        errors[x] = float(sum / 3.0);
+    explicit RowOfSums(std::size_t channels) : mean(channels + 2 * room), square(mean), variance(mean) {}
+
+    void clear() {
+        for (std::vector<double>* values : {&mean, &square, &variance})
+            std::fill(values->begin(), values->end(), 0.0);
     }
-}
+    void add(const float* means, const float* variances) {
+        for (std::size_t i = 0; i + 2 * room < mean.size(); ++i) {
+            const double m = means[i];
+            mean[room + i] += m, square[room + i] += m * m, variance[room + i] += variances[i];
+        }
+    }
+    /// Those of the channels so many further on.
+    void add(const RowOfSums& sums, std::ptrdiff_t offset) {
+        const auto shift = [&](std::vector<double>& to, const std::vector<double>& from) {
+            const double* const other = from.data() + offset;
+            for (std::size_t i = room; i + room < to.size(); ++i) to[i] += other[i];
+        };
+        shift(mean, sums.mean), shift(square, sums.square), shift(variance, sums.variance);
+    }
+
+    std::vector<double> mean, square, variance;
+};
+
+/// Errors of rows of pixels, neighbours taken from 5 x 5 pixels (of one set: 7 x 7, as many).
+class RowErrors {
+  public:
+    RowErrors(const Film& film, const Estimates& estimates, Neighbours which)
+        : film_(film),
+          estimates_(estimates),
+          all_(which == Neighbours::all),
+          radius_(all_ ? 2 : 3),
+          columns_{RowOfSums(film.width * 3ul), RowOfSums(film.width * 3ul)},
+          windows_(film.width * 3ul) {}
+
+    void of(std::size_t y, float* errors) {
+        const std::size_t row = film_.width * 3ul, first = y - std::min(y, radius_),
+                          last = std::min<std::size_t>(y + radius_, film_.height - 1);
+        const std::size_t odd_rows = (last + 1) / 2 - first / 2,
+                          rows[] = {last - first + 1 - odd_rows, odd_rows};
+        for (RowOfSums& sums : columns_) sums.clear();
+        for (std::size_t v = first; v <= last; ++v)
+            columns_[v & 1].add(&estimates_.mean[v * row], &estimates_.variance[v * row]);
+        windows_.clear();
+        for (std::ptrdiff_t d = -std::ptrdiff_t(radius_); d <= std::ptrdiff_t(radius_); ++d)
+            for (const std::size_t odd : {0, 1})
+                if (is_of_window(y, d, odd)) windows_.add(columns_[odd], 3 * d);
+        for (std::size_t x = 0; x < film_.width; ++x) {
+            std::size_t pixels = 0;
+            for (std::ptrdiff_t d = -std::ptrdiff_t(std::min(x, radius_));
+                 d <= std::ptrdiff_t(std::min(radius_, film_.width - 1 - x)); ++d)
+                for (const std::size_t odd : {0, 1}) pixels += is_of_window(y, d, odd) ? rows[odd] : 0;
+            double sum = 0.0;
+            for (std::size_t i = x * 3; i < x * 3 + 3; ++i)
+                sum += error(y * row + i, i + RowOfSums::room, pixels);
+            errors[x] = float(sum / 3.0);
+        }
+    }
+
+  private:
+    /// Whether the even, or the odd, rows of the column d beside a pixel of row y are its neighbours.
+    bool is_of_window(std::size_t y, std::ptrdiff_t d, std::size_t odd) const {
+        return all_ || odd == ((y ^ std::size_t(d)) & 1);
+    }
+
+    double error(std::size_t at, std::size_t in_row, std::size_t pixels) const {
+        const Estimate own{estimates_.mean[at], estimates_.variance[at], estimates_.darker[at]};
+        const double mean = own.mean, variance = own.variance;
+        return variance * inverse_square(own, {double(pixels) - 1.0, windows_.mean[in_row] - mean,
+                                               windows_.square[in_row] - mean * mean,
+                                               windows_.variance[in_row] - variance});
+    }
+
+    const Film& film_;
+    const Estimates& estimates_;
+    bool all_;
+    std::size_t radius_;
+    std::array<RowOfSums, 2> columns_;  ///< of a window, apart for its even and its odd rows
+    RowOfSums windows_;
+};
 
 }  // namespace
 
@@ -156,22 +217,17 @@ std::optional<HalfMeans> half_means(const Film& film) {
 std::vector<float> mean_variance(const Film& film) {
     const HalfCounts halves(film);
     if (!halves.known()) return {};
-    const std::vector<Estimate> estimates = estimate_pixels(film, halves);
-    std::vector<float> variance(estimates.size());
-    for (std::size_t i = 0; i < variance.size(); ++i) variance[i] = estimates[i].variance;
-    return variance;
+    return estimate_pixels(film, halves).variance;
 }
 
 std::vector<float> error_map(const Film& film, Neighbours which) {
     const HalfCounts halves(film);
     if (!halves.known() || film.pixels() == 0) return {};
-    const std::vector<Estimate> estimates = estimate_pixels(film, halves);
+    const Estimates estimates = estimate_pixels(film, halves);
     std::vector<float> errors(film.pixels());
     parallel_for(film.height, 8, [&](std::size_t begin, std::size_t end) {
-        Columns columns{std::vector<Window>(std::size_t(film.width) * 3),
-                        std::vector<Window>(std::size_t(film.width) * 3)};
-        for (std::size_t y = begin; y < end; ++y)
-            errors_of_row(film, estimates, y, which, columns, &errors[y * film.width]);
+        RowErrors rows(film, estimates, which);
+        for (std::size_t y = begin; y < end; ++y) rows.of(y, &errors[y * film.width]);
     });
     return errors;
 }

@@ -94,18 +94,25 @@ TRIAD_FUNCTION void environment_prefetch_texels(const Scene* scene, const Enviro
     TRIAD_PREFETCH(texel + words * e->width);
 }
 
-/* How many of COLUMNS_FANOUT shares, which do not fall, are below `share`; the last is not. */
-TRIAD_FUNCTION uint columns_below(global const ushort* entries, ushort share) {
+/* How many of sixteen shares, which do not fall, are below `share`; the last is not. */
+TRIAD_FUNCTION uint shares_below(global const ushort* entries, ushort share) {
 #if TRIAD_ITEM_LANES
-    const ulong2 a = as_ulong2(convert_char16(vload16(0, entries) < (ushort16)(share)));
-    const ulong2 b = as_ulong2(convert_char16(vload16(1, entries) < (ushort16)(share)));
-    return (uint)(popcount(a.x) + popcount(a.y) + popcount(b.x) + popcount(b.y)) >> 3;
+    const ulong2 below = as_ulong2(convert_char16(vload16(0, entries) < (ushort16)(share)));
+    return (uint)(popcount(below.x) + popcount(below.y)) >> 3;
 #else
-    uint i = entries[15] < share ? 16u : 0u;
-    i += entries[i + 7u] < share ? 8u : 0u;
+    uint i = entries[7] < share ? 8u : 0u;
     i += entries[i + 3u] < share ? 4u : 0u;
     i += entries[i + 1u] < share ? 2u : 0u;
     return i + (entries[i] < share ? 1u : 0u);
+#endif
+}
+/* The same of COLUMNS_FANOUT. */
+TRIAD_FUNCTION uint columns_below(global const ushort* entries, ushort share) {
+#if TRIAD_ITEM_LANES
+    return shares_below(entries, share) + shares_below(entries + 16, share);
+#else
+    const uint first = entries[15] < share ? 16u : 0u;
+    return first + shares_below(entries + first, share);
 #endif
 }
 

@@ -43,11 +43,7 @@ TRIAD_FUNCTION_PER_CALL uint facing_shares(global const ushort* entries, uint i,
 
 /* The entry that u draws, as the upper bits of a number whose lower ones say where in its shares u lies. */
 TRIAD_FUNCTION_PER_CALL uint facing_draw(global const ushort* entries, uint u, uint* entry, uint* shares) {
-    const ushort share = (ushort)(u >> 16);
-    uint i = entries[7] < share ? 8u : 0u;
-    i += entries[i + 3u] < share ? 4u : 0u;
-    i += entries[i + 1u] < share ? 2u : 0u;
-    i += entries[i] < share ? 1u : 0u;
+    const uint i = shares_below(entries, (ushort)(u >> 16));
     uint first;
     const uint n = facing_shares(entries, i, &first);
     *entry = i, *shares = n;
