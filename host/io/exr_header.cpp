@@ -8,6 +8,7 @@
 #include <cstring>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "io/image_container.h"
@@ -80,6 +81,10 @@ std::vector<std::string> read_channels(const std::string& name, Span value) {
         names.push_back(std::move(channel));
     }
     if (names.empty() || names.size() > 1024) list.refuse("it has no EXR channels, or more than 1024");
+    // OpenEXR goes by the list's own end: what follows there it takes for attributes.
+    if (!list.done()) list.refuse("its list of EXR channels is longer than it says");
+    if (std::set<std::string>(names.begin(), names.end()).size() != names.size())
+        list.refuse("it has two EXR channels of one name");
     return names;
 }
 
@@ -166,6 +171,7 @@ CleanExr clean_exr(const std::string& name, Span bytes) {
         for (const Span value = need(key, size); std::size_t i : {0, 4})
             if (float f; i < value.size() && (std::memcpy(&f, value.data() + i, 4), !(std::abs(f) < 1e6f)))
                 file.refuse(std::string("its EXR attribute ") + key + " is not finite");
+    if (header.contains("tiles")) need("tiles", 9);  // OpenEXR reads as many bytes, whatever its size
     if (version & tiled_flag) {
         std::uint32_t tile[2];
         std::memcpy(tile, need("tiles", 9).data(), sizeof tile);

@@ -24,7 +24,9 @@ constexpr std::size_t many_values = std::size_t(1) << 20;
 /// The file in memory.
 class GivenBytes : public Imf::IStream {
   public:
-    explicit GivenBytes(std::span<const std::uint8_t> bytes) : IStream("memory"), bytes_(bytes) {}
+    explicit GivenBytes(std::span<const std::uint8_t> bytes) : IStream(name), bytes_(bytes) {}
+    static constexpr const char* name = "these bytes";
+
     bool read(char to[], int size) override {
         if (size < 0 || std::size_t(size) > bytes_.size() - at_) throw std::runtime_error("it ends early");
         std::memcpy(to, bytes_.data() + at_, std::size_t(size));
@@ -47,8 +49,13 @@ void decode(const CleanExr& exr, const TakeRows& take) {
     GivenBytes memory(exr.bytes);
     Imf::InputFile file(memory, exr_threads(row * exr.height));
     const Imath::Box2i window = file.header().dataWindow();
-    // The longest strip that a compression has is of 256 rows.
-    const unsigned band = std::min(256u, exr.height);
+    const Imath::V2i size = window.size() + Imath::V2i(1, 1);
+    if (size.x != int(exr.width) || size.y != int(exr.height))  // what is written to is measured by `exr`
+        throw std::runtime_error("its header can be read in two ways");
+    // No strip of a compression has more rows than 256; a strip that is cut is not unpacked twice.
+    constexpr std::size_t values_at_once = std::size_t(1) << 22;
+    const unsigned band =
+        unsigned(std::min<std::size_t>(exr.height, std::clamp<std::size_t>(values_at_once / row, 1, 256)));
     std::vector<float> values(row * band);
     for (unsigned y = 0; y < exr.height; y += band) {
         const unsigned rows = std::min(band, exr.height - y);
@@ -65,8 +72,10 @@ void decode(const CleanExr& exr, const TakeRows& take) {
     }
 }
 
-/// A message as half a sentence: its first line, without a full stop.
+/// A message as half a sentence: its first line, without what leads to it and without a full stop.
 std::string half_a_sentence(std::string text) {
+    const std::string file = std::string("\"") + GivenBytes::name + "\". ";
+    if (const std::size_t at = text.find(file); at != std::string::npos) text.erase(0, at + file.size());
     text = text.substr(0, text.find('\n'));
     while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
     return text;
@@ -92,6 +101,7 @@ void decode_exr(const std::string& name, const CleanExr& exr, const TakeRows& ta
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& e) {
+        if (std::strstr(e.what(), "bad_alloc")) throw std::bad_alloc();  // of one of OpenEXR's threads
         throw Error(Exit::scene, "Image " + name + " cannot be read: " + half_a_sentence(e.what()) + ".");
     }
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// What reads PNG, JPEG and WebP and writes JPEG and HDR, from and to memory: OpenImageIO, behind a border
-/// without its types. It lies in a library of its own, triad-images (host/images), that is loaded for the first picture:
-/// the 230 libraries that it brings take longer to start than a small picture takes to render.
+/// without its types. It lies in a library of its own, triad-images (host/images), that is loaded when it is
+/// first needed: the 230 libraries that it brings take longer to start than a small picture takes to render.
 #include <cstdint>
 #include <functional>
 #include <memory>

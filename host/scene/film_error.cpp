@@ -37,6 +37,8 @@ class HalfCounts {
     std::uint64_t bins_, common_, first_ = 0, end_ = 0;
 };
 
+constexpr double largest = std::numeric_limits<float>::max();
+
 /// Of every channel of every pixel: its mean, an unbiased estimate of that mean's variance, and the mean of
 /// its darker half.
 struct Estimates {
@@ -46,8 +48,8 @@ struct Estimates {
 /// Halves of nA and nB samples with means A and B have Var(A - B) = s^2 (1/nA + 1/nB), and the mean of all
 /// has s^2 / (nA + nB): so (A - B)^2 nA nB / (nA + nB)^2 is unbiased for it.
 Estimates estimate_pixels(const Film& film, const HalfCounts& halves) {
-    const std::vector<float> none(film.pixels() * 3);
-    Estimates estimates{none, none, none};
+    const std::size_t values = film.pixels() * 3;
+    Estimates estimates{std::vector<float>(values), std::vector<float>(values), std::vector<float>(values)};
     const double quantum = std::ldexp(1.0, -film.quanta_log2);
     parallel_for(film.pixels(), 4096, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
@@ -60,8 +62,7 @@ Estimates estimate_pixels(const Film& film, const HalfCounts& halves) {
                 const double sum = double(film.half_sums[p * 3 + c]) * quantum;
                 const double a = sum / first, b = (mean[c] * count - sum) / second;
                 estimates.mean[p * 3 + c] = float(mean[c]);
-                estimates.variance[p * 3 + c] =
-                    float(std::min<double>(weight * (a - b) * (a - b), std::numeric_limits<float>::max()));
+                estimates.variance[p * 3 + c] = float(std::min(weight * (a - b) * (a - b), largest));
                 estimates.darker[p * 3 + c] = float(std::min(a, b));
             }
         }
@@ -166,7 +167,7 @@ class RowErrors {
             double sum = 0.0;
             for (std::size_t i = x * 3; i < x * 3 + 3; ++i)
                 sum += error(y * row + i, i + RowOfSums::room, pixels);
-            errors[x] = float(sum / 3.0);
+            errors[x] = float(std::min(sum / 3.0, largest));
         }
     }
 

@@ -41,6 +41,10 @@ TRIAD_FUNCTION_PER_CALL uint facing_shares(global const ushort* entries, uint i,
     return (uint)entries[i] + 1u - *first;
 }
 
+#if PATCHES != 16
+#error "facing_draw() takes sixteen entries"
+#endif
+
 /* The entry that u draws, as the upper bits of a number whose lower ones say where in its shares u lies. */
 TRIAD_FUNCTION_PER_CALL uint facing_draw(global const ushort* entries, uint u, uint* entry, uint* shares) {
     const uint i = shares_below(entries, (ushort)(u >> 16));
