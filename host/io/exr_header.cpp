@@ -104,6 +104,25 @@ void add_metadata(Metadata& metadata, const std::string& name, const Attribute& 
     if (a.type == "double" && a.value.size() == 8) number(double{});
 }
 
+/// The bytes with the attributes `kept` alone in their header, which lies from `begin` to `end`. Offsets in
+/// the file are absolute, so the header keeps its length: one blank attribute in the place of the foreign.
+std::vector<std::uint8_t> with_header(const Cursor& file, Span bytes, std::size_t begin, std::size_t end,
+                                      const std::vector<std::uint8_t>& kept) {
+    std::vector<std::uint8_t> result(bytes.begin(), bytes.end());
+    auto to = std::copy(kept.begin(), kept.end(), result.begin() + std::ptrdiff_t(begin));
+    const std::size_t gap = end - 1 - begin - kept.size();
+    if (gap > 0) {
+        constexpr char blank[] = "x\0string";  // with its closing zero
+        if (gap < sizeof blank + 4) file.refuse("its EXR header has an attribute without a type");
+        const auto size = std::uint32_t(gap - sizeof blank - 4);
+        to = std::copy(std::begin(blank), std::end(blank), to);
+        std::memcpy(&*to, &size, 4);
+        std::fill_n(to + 4, size, std::uint8_t(' '));
+    }
+    result[end - 1] = 0;
+    return result;
+}
+
 }  // namespace
 
 CleanExr clean_exr(const std::string& name, Span bytes) {
@@ -181,20 +200,7 @@ CleanExr clean_exr(const std::string& name, Span bytes) {
             file.refuse("its EXR tiles do not fit its size; save it by scanlines");
     }
 
-    // Offsets in the file are absolute, so the header keeps its length: one blank attribute in the place of
-    // the foreign.
-    clean.bytes.assign(bytes.begin(), bytes.end());
-    auto to = std::copy(kept.begin(), kept.end(), clean.bytes.begin() + std::ptrdiff_t(begin));
-    const std::size_t gap = end - 1 - begin - kept.size();
-    if (gap > 0) {
-        constexpr char blank[] = "x\0string";  // with its closing zero
-        if (gap < sizeof blank + 4) file.refuse("its EXR header has an attribute without a type");
-        const auto size = std::uint32_t(gap - sizeof blank - 4);
-        to = std::copy(std::begin(blank), std::end(blank), to);
-        std::memcpy(&*to, &size, 4);
-        std::fill_n(to + 4, size, std::uint8_t(' '));
-    }
-    clean.bytes[end - 1] = 0;
+    clean.bytes = with_header(file, bytes, begin, end, kept);
     return clean;
 }
 
