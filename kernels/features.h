@@ -57,6 +57,10 @@
 #ifndef TRIAD_TRIANGLE_LIGHTS /* some triangle emits */
 #define TRIAD_TRIANGLE_LIGHTS 1
 #endif
+#ifndef TRIAD_NEAR_LIGHTS /* some triangle light is large beside its distance to what it lights \
+                           * (needs TRIAD_TRIANGLE_LIGHTS) */
+#define TRIAD_NEAR_LIGHTS 1
+#endif
 #ifndef TRIAD_PUNCTUAL_LIGHTS /* there is a point, spot or directional light */
 #define TRIAD_PUNCTUAL_LIGHTS 1
 #endif

@@ -134,6 +134,11 @@ void use_anisotropy(FeatureScene& s) {
             if (s.scene.materials[p.material].anisotropy) generate_tangents(p, p.uvs[0]);
 }
 
+/// From where nothing is near.
+constexpr double lamp_afar = 1.5;
+
+void raise_lamp(FeatureScene& s, double height) { s.scene.instances.back().to_world[3].y += height; }
+
 void add_point_lights(FeatureScene& s, int count) {
     for (int i = 0; i < count; ++i) {
         PunctualLight light;
@@ -191,7 +196,14 @@ const std::map<std::string, Recipe>& recipes() {
          }}},
         {"UNLIT", {[](FeatureScene& s) { s.scene.materials[rock_material].unlit = true; }}},
         {"TRIANGLE_LIGHTS",
-         {[](FeatureScene& s) { s.scene.materials[lamp_material].emission = vec3(5.0f); }}},
+         {[](FeatureScene& s) { s.scene.materials[lamp_material].emission = vec3(5.0f); },
+          [](FeatureScene& s) { raise_lamp(s, lamp_afar); }}},
+        {"NEAR_LIGHTS",
+         {[](FeatureScene& s) { raise_lamp(s, -lamp_afar); },
+          [](FeatureScene& s) {
+              raise_lamp(s, lamp_afar);
+              s.scene.materials[lamp_material].emission = vec3(5.0f);
+          }}},
         {"PUNCTUAL_LIGHTS", {[](FeatureScene& s) { add_point_lights(s, 1); }}},
         {"ENVIRONMENT_MAP", {use_environment_map}},
         {"LIGHT_TREE",

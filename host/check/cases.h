@@ -20,6 +20,7 @@ void add_bsdf_energy(std::vector<CheckCase>& cases);
 void add_bsdf_layers(std::vector<CheckCase>& cases);
 void add_bsdf_grazing(std::vector<CheckCase>& cases);
 void add_lights(std::vector<CheckCase>& cases);
+void add_near_lights(std::vector<CheckCase>& cases);
 void add_light_samplers(std::vector<CheckCase>& cases);
 void add_light_tree(std::vector<CheckCase>& cases);
 void add_spectral(std::vector<CheckCase>& cases);

@@ -46,6 +46,7 @@ const std::vector<CheckCase>& function_cases() {
                                add_light_samplers,
                                add_light_tree,
                                add_lights,
+                               add_near_lights,
                                add_spectral,
                                add_light_spectra,
                                add_film,

@@ -141,8 +141,6 @@ void add_lights(std::vector<CheckCase>& cases) {
     using enum CheckLevel;
     cases.insert(cases.end(),
                  {
-                     {"C14", "spherical triangles", quick, nullptr,
-                      "triangle lights are sampled by area: no kernel samples their solid angle"},
                      {"C15", "tiny far light", quick, tiny_far_light},
                      {"C15b", "power heuristic at its ends", quick, heuristic_at_its_ends},
                      {"C16e", "samples of the environment and their density", quick, environment_samples},

@@ -76,6 +76,17 @@ void square_light(Check& check) {
         check, b.scene,
         {.view = orthographic({0.7, 0, 0.2}, {0, -1, 0}, 1e-3, 0.5), .size = 4, .spp = 4096, .max_depth = 2});
     expect_closed_form(check, "aside", aside, 0.106817083, 1e-5);
+    // Farther away points are drawn by area: four times a square that begins at its foot.
+    constexpr double height = 3, x = 0.5 / height;
+    Builder far;
+    far.add(square(0, true, 2.0), lambert(0.8f)).add(square(height, false), emitter(1.0f));
+    const double beside = std::sqrt(1 + x * x), irradiance = 4 * x / beside * std::atan(x / beside);
+    expect_closed_form(
+        check, "far",
+        measure(
+            check, far.scene,
+            {.view = orthographic({0, 0, 0}, {0, -1, 0}, 1e-3, 0.5), .size = 4, .spp = 4096, .max_depth = 2}),
+        0.8 * irradiance / pi, 1e-5);
 }
 
 /// What a smooth varnish of index 1.5 leaves of light that comes from below (KHR_materials_clearcoat).

@@ -26,6 +26,7 @@ constexpr FeatureOption table[] = {
     {"DIFFUSE_TRANSMISSION", &Features::diffuse_transmission},
     {"UNLIT", &Features::unlit},
     {"TRIANGLE_LIGHTS", &Features::triangle_lights},
+    {"NEAR_LIGHTS", &Features::near_lights},
     {"PUNCTUAL_LIGHTS", &Features::punctual_lights},
     {"ENVIRONMENT_MAP", &Features::environment_map},
     {"LIGHT_TREE", &Features::light_tree},
@@ -92,6 +93,8 @@ Features features_of(const PackedScene& packed, const RenderSettings& settings) 
     f.dispersion =
         settings.spectral == Spectral::classic || (settings.spectral != Spectral::off && f.dispersion);
     f.light_spectra = packed.spectrum.size() > 1;
+    f.near_lights = std::any_of(packed.lights.begin(), packed.lights.end(),
+                                [](const dev::Light& l) { return l.type == LIGHT_TRIANGLE && l.range > 0; });
     f.light_tree = !packed.light_tree.nodes.empty();
     f.lens = settings.view.lens_radius > 0;
     f.independent_samples = settings.independent;

@@ -16,7 +16,8 @@ struct Features {
     bool instances = true, alpha_test = true, textures = true, normal_maps = true, vertex_colours = true;
     bool texture_levels = true;
     bool specular = true, transmission = true, dispersion = true, priorities = true, unlit = true;
-    bool triangle_lights = true, punctual_lights = true, environment_map = true, lens = true, bins = true;
+    bool triangle_lights = true, near_lights = true, punctual_lights = true, environment_map = true,
+         lens = true, bins = true;
     bool clearcoat = true, sheen = true, anisotropy = true, iridescence = true, diffuse_transmission = true;
     bool light_tree = true;
     bool independent_samples = true, ray_starts = true, photons = true, gather = true, light_spectra = true;

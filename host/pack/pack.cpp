@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "pack/near_lights.h"
 #include "pack/ray_filter.h"
 
 namespace triad {
@@ -56,6 +57,7 @@ PackedScene pack(const Scene& scene, const RenderSettings& settings,
     pack_geometry(scene, settings, packed);
     set_surfaces(packed, surfaces ? std::move(surfaces) : pack_surfaces(scene, settings));
     pack_lights(scene, packed);
+    mark_near_lights(scene, packed);
     pack_wavelengths(packed);
     pack_photons(scene, settings, packed);
     name_light_sources(scene, packed);

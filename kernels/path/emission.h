@@ -48,24 +48,29 @@ TRIAD_FUNCTION int path_unlit(const Scene* scene, PathState* path, const Vertex*
 #endif
 }
 
-/* The light that the edge has hit, as the vertex at its start would have picked it. */
-TRIAD_FUNCTION LightPick path_lit(const Scene* scene, const PathState* path, const Hit* hit) {
-    LightPick pick = {TRIAD_NONE, -1.0f};
+/* The light that the edge has hit, and light_found() of it for the vertex at its start. */
+typedef struct LightHit {
+    uint light; /* TRIAD_NONE: none */
+    float extent;
+} LightHit;
+
+TRIAD_FUNCTION LightHit path_lit(const Scene* scene, const PathState* path, const Hit* hit) {
+    LightHit lit = {TRIAD_NONE, 0.0f};
 #if TRIAD_TRIANGLE_LIGHTS
     global const Geometry* geometry = scene->geometries + scene->triangles[hit->primitive].geometry;
     if (geometry->first_light != TRIAD_NONE && !path_is_back(path)) {
-        pick.light = geometry->first_light + hit->primitive - geometry->first_triangle;
+        lit.light = geometry->first_light + hit->primitive - geometry->first_triangle;
         if (path->pdf > 0.0f)
-            pick = light_found(scene, path_receiver(path, VEC3_OF(path->ray.origin)), pick.light);
+            lit.extent = light_found(scene, path_receiver(path, VEC3_OF(path->ray.origin)), lit.light);
     }
 #else
     (void)scene, (void)path, (void)hit;
 #endif
-    return pick;
+    return lit;
 }
 
 /* What the surface emits along the edge; lit: path_lit()'s. */
-TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Vertex* vertex, LightPick lit,
+TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Vertex* vertex, LightHit lit,
                                   Tally* tally) {
 #if TRIAD_TRIANGLE_LIGHTS
     const Surface* s = &vertex->surface;
@@ -74,12 +79,10 @@ TRIAD_FUNCTION void path_emission(const Scene* scene, PathState* path, const Ver
     global const Light* found = scene->lights + lit.light;
     float weight = 1.0f;
     if ((found->flags & LIGHT_PHOTONS) && path_leaves_to_photons(scene, path)) weight = 0.0f;
-    if (path->pdf > 0.0f) {
-        const Light light = light_picked(scene, lit);
+    if (path->pdf > 0.0f)
         weight = power_heuristic(
-            1.0f / (path->pdf * light_triangle_inverse_pdf(&light, 1.0f / (vertex->hit.t * vertex->hit.t),
+            1.0f / (path->pdf * light_triangle_inverse_pdf(lit.extent, 1.0f / (vertex->hit.t * vertex->hit.t),
                                                            vec3_dot(vertex->ng, vertex->wo))));
-    }
 #if TRIAD_CLEARCOAT
     weight *= coat_emission(scene, s, vertex->wo, vertex->ng, vertex->back);
 #endif

@@ -16,7 +16,7 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
         path_miss(scene, path, &hit, tally);
         return 0;
     }
-    const LightPick lit = path_lit(scene, path, &hit);
+    const LightHit lit = path_lit(scene, path, &hit);
     Vertex vertex = path_surface(scene, path, &hit, tally);
     if (path_unlit(scene, path, &vertex, tally)) return 0;
     path_emission(scene, path, &vertex, lit, tally);

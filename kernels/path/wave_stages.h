@@ -64,7 +64,7 @@ TRIAD_FUNCTION_PER_CALL void wave_edge(const Scene* scene, const Pool* pool, siz
 
 /* The path is at the end of its edge: whether it ends there, WAVE_END, or is to go on, WAVE_GO. */
 TRIAD_FUNCTION_PER_CALL uint vertex_meet(const Scene* scene, PathState* path, const Vertex* vertex,
-                                         LightPick lit, Tally* tally) {
+                                         LightHit lit, Tally* tally) {
     uint state = WAVE_END;
     if (!path_unlit(scene, path, vertex, tally)) {
         path_emission(scene, path, vertex, lit, tally);
@@ -106,7 +106,7 @@ TRIAD_FUNCTION_PER_CALL void wave_vertex(const Scene* scene, const Pool* pool, s
         POOL_LOAD(path, pool->paths, &path);
         POOL_LOAD(hit, pool->hits, &hit);
         const SamplerBlock u = path_numbers(&path);
-        const LightPick lit = path_lit(scene, &path, &hit);
+        const LightHit lit = path_lit(scene, &path, &hit);
         Vertex vertex = path_surface(scene, &path, &hit, tally);
         uint state = vertex_meet(scene, &path, &vertex, lit, tally);
         if (state == WAVE_GO) {
@@ -128,7 +128,7 @@ TRIAD_FUNCTION_PER_CALL void wave_meet(const Scene* scene, const Pool* pool, siz
         Hit hit;
         POOL_LOAD_PARTS(path, pool->paths, &path, PART_ALL & ~PART_FORKED);
         POOL_LOAD(hit, pool->hits, &hit);
-        const LightPick lit = path_lit(scene, &path, &hit);
+        const LightHit lit = path_lit(scene, &path, &hit);
         const Vertex vertex = path_surface(scene, &path, &hit, tally);
         pool->states[i] = vertex_meet(scene, &path, &vertex, lit, tally);
         POOL_STORE_PARTS(path, pool->paths, &path, PARTS_MEET);

@@ -8,6 +8,7 @@
 #include "shading/coat_emission.h"
 #include "shading/facing.h"
 #include "shading/light_tree.h"
+#include "shading/near_light.h"
 #include "shading/surface.h"
 
 typedef struct LightSample {
@@ -22,13 +23,19 @@ typedef struct LightSample {
     Vec2 uv;    /* of a map: weight and inverse_pdf are still to be looked up, by light_complete() */
 } LightSample;
 
-/* 1 / density in solid angle, seen from a point at `distance2` (squared), with which light_sample draws a
- * point of a triangle light. `cosine` is the absolute cosine at the light. */
-TRIAD_FUNCTION float light_triangle_inverse_pdf(const Light* light, float inverse_distance2, float cosine) {
-    return light->area_per_pick * cosine * inverse_distance2;
+#if TRIAD_TRIANGLE_LIGHTS
+/* How a triangle light is drawn: its solid angle over the probability of its pick; below 0: by its area, that
+ * over the probability, negated. */
+TRIAD_FUNCTION float light_extent(const Light* light, float angle) {
+    return angle > 0.0f ? angle / light->pick : -light->area_per_pick;
 }
 
-#if TRIAD_TRIANGLE_LIGHTS
+/* 1 / density in solid angle of a point drawn so, seen from a point at `distance2` (squared). `cosine` is the
+ * absolute cosine at the light. */
+TRIAD_FUNCTION float light_triangle_inverse_pdf(float extent, float inverse_distance2, float cosine) {
+    return extent > 0.0f ? extent : -extent * cosine * inverse_distance2;
+}
+
 /* What a triangle emits at barycentric weights b of its corners 1 and 2, below its varnish. */
 TRIAD_FUNCTION Vec3 light_triangle_radiance(const Scene* scene, const Light* light, Vec2 b) {
     Vec3 radiance = VEC3_OF(light->colour);
@@ -52,11 +59,20 @@ TRIAD_FUNCTION Vec3 light_triangle_radiance(const Scene* scene, const Light* lig
 
 TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light, Vec3 p, Vec2 u,
                                          LightSample* s) {
-    const Vec2 b = sampling_triangle(u);
     const Vec3 e1 = VEC3_OF(light->edge1);
     const Vec3 e2 = VEC3_OF(light->edge2);
-    const Vec3 q = vec3_add_scaled(vec3_add_scaled(VEC3_OF(light->position), e1, b.x), e2, b.y);
     Vec3 n = VEC3_OF(light->axis);
+    float extent = light_extent(light, 0.0f);
+    Vec2 b = sampling_triangle(u);
+#if TRIAD_NEAR_LIGHTS
+    const Vec3 a = vec3_sub(VEC3_OF(light->position), p);
+    if (light_is_near(a, e1, e2, light->range)) {
+        Vec2 near;
+        const float angle = near_light_point(a, e1, e2, n, light->area, u, &near);
+        if (angle > 0.0f) b = near, extent = light_extent(light, angle);
+    }
+#endif
+    const Vec3 q = vec3_add_scaled(vec3_add_scaled(VEC3_OF(light->position), e1, b.x), e2, b.y);
     const Vec3 d = vec3_sub(q, p);
     const float inverse_distance2 = 1.0f / vec3_dot(d, d);
     s->direction = vec3_scale(d, sqrt(inverse_distance2));
@@ -66,15 +82,15 @@ TRIAD_FUNCTION int light_sample_triangle(const Scene* scene, const Light* light,
         n = vec3_negate(n);
     }
     if (!(cosine > 0.0f) || !math_is_finite(inverse_distance2)) return 0;
+    s->inverse_pdf = light_triangle_inverse_pdf(extent, inverse_distance2, cosine);
+    /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */
+    s->target = vec3_add_scaled(q, n, 32.0f * 0x1.0p-23f * vec3_largest_abs(q));
+    s->distant = 0;
     Vec3 radiance = light_triangle_radiance(scene, light, b);
 #if TRIAD_CLEARCOAT
     radiance = vec3_scale(radiance, coat_light(scene, light, b, vec3_negate(s->direction)));
 #endif
-    s->inverse_pdf = light_triangle_inverse_pdf(light, inverse_distance2, cosine);
     s->weight = vec3_scale(radiance, s->inverse_pdf);
-    /* The target moves off the light by the rounding error of q, so that the light does not shadow itself. */
-    s->target = vec3_add_scaled(q, n, 32.0f * 0x1.0p-23f * vec3_largest_abs(q));
-    s->distant = 0;
     return 1;
 }
 #endif
@@ -131,16 +147,26 @@ TRIAD_FUNCTION Light light_picked(const Scene* scene, LightPick pick) {
     return light;
 }
 
-/* A light as light_pick() would have picked it. */
-TRIAD_FUNCTION LightPick light_found(const Scene* scene, Receiver receiver, uint index) {
+#if TRIAD_TRIANGLE_LIGHTS
+/* light_extent() of a triangle light that a path from the receiver has hit, as light sampling would have
+ * picked and drawn it. */
+TRIAD_FUNCTION float light_found(const Scene* scene, Receiver receiver, uint index) {
     LightPick pick = {index, -1.0f};
+    float angle = 0.0f;
+#if TRIAD_NEAR_LIGHTS
+    global const Light* l = scene->lights + index;
+    const Vec3 a = vec3_sub(VEC3_OF(l->position), receiver.position);
+    const Vec3 e1 = VEC3_OF(l->edge1), e2 = VEC3_OF(l->edge2);
+    if (light_is_near(a, e1, e2, l->range)) angle = near_light_angle(a, e1, e2, VEC3_OF(l->axis), l->area);
+#endif
 #if TRIAD_LIGHT_TREE
     if (scene->frame->light_range != 0u) pick.probability = light_tree_probability(scene, &receiver, index);
-#else
-    (void)receiver;
 #endif
-    return pick;
+    (void)receiver;
+    const Light light = light_picked(scene, pick);
+    return light_extent(&light, angle);
 }
+#endif
 
 /* The light that the uniform 32-bit integer `number` picks for a receiver. */
 TRIAD_FUNCTION LightPick light_pick(const Scene* scene, Receiver receiver, uint number) {

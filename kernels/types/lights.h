@@ -47,7 +47,8 @@ typedef struct Light {
     float pick;        /* probability that light sampling picks this light */
     float area;        /* TRIANGLE */
     float position[3]; /* corner 0, or the position */
-    float range;       /* punctual; 0 = no limit */
+    float range;       /* punctual; 0 = no limit. TRIANGLE: where a corner is nearer than this, points are
+                          drawn by solid angle */
     float edge1[3];    /* TRIANGLE: corner 1 - corner 0 */
     float cone_scale;  /* SPOT: attenuation = clamp(cos * scale + offset, 0, 1)^2 */
     float edge2[3];    /* TRIANGLE: corner 2 - corner 0 */
