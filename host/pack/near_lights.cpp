@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "pack/pack.h"
@@ -16,13 +15,17 @@ using Corners = std::array<dvec3, 3>;
 /// A corner within this many lengths of the longest edge, and points are drawn by solid angle. Farther away
 /// the solid angle takes more time than it saves (docs/measurements/2026-11-28-solid-angle.md).
 constexpr double reach_in_edges = 1.12;
-/// Lights of less of the power matter little, and cost the search for what is near them.
-constexpr double least_pick = 1.0 / 32;
+/// Lights of less of the power matter little, and cost the search for what is near them. No number of equal
+/// lights lies at the border, where rounding would decide.
+constexpr double least_pick = 1.0 / 32.5;
+/// Smaller ones are drawn by area: products of their lengths would underflow.
+constexpr float least_area = 1e-30f;
 /// Lights are drawn by solid angle where at least this share of all light is reflected diffusely within their
 /// reach: in a scene with less, the time for it is lost.
 constexpr double least_share = 0.1;
-/// As many triangles of a mesh are asked, evenly spread.
-constexpr std::size_t asked = 65536;
+/// As many triangles are asked for all lights together, and of each primitive for one light. Those of a
+/// primitive are taken to be alike.
+constexpr std::size_t asked_of_all = 1 << 22, asked_of_each = 1 << 16;
 
 dvec3 centre_of(const Corners& t) { return (t[0] + t[1] + t[2]) / 3.0; }
 
@@ -87,7 +90,8 @@ double diffuse(const Material& m) {
 }
 
 /// Share of the flux that all that is placed reflects diffusely within reach, once.
-double reflected(const Emitter& light, const Scene& scene, const std::vector<Sphere>& spheres) {
+double reflected(const Emitter& light, const Scene& scene, const std::vector<Sphere>& spheres,
+                 std::size_t asked) {
     double sum = 0;
     for (const MeshInstance& i : scene.instances) {
         const Sphere& around = spheres[i.mesh];
@@ -110,22 +114,29 @@ double reflected(const Emitter& light, const Scene& scene, const std::vector<Sph
 }  // namespace
 
 void mark_near_lights(const Scene& scene, PackedScene& packed) {
-    std::vector<Sphere> spheres;
-    std::vector<std::pair<dev::Light*, double>> reaches;
+    std::vector<dev::Light*> lights;
+    for (dev::Light& l : packed.lights)
+        if (l.type == LIGHT_TRIANGLE && l.pick >= least_pick && l.area >= least_area) lights.push_back(&l);
+    if (lights.empty()) return;
+    const std::vector<Sphere> spheres = spheres_of(scene);
+    std::size_t primitives = 0;
+    for (const MeshInstance& i : scene.instances) primitives += scene.meshes[i.mesh].primitives.size();
+    const std::size_t asked = std::clamp<std::size_t>(
+        asked_of_all / (std::max<std::size_t>(primitives, 1) * lights.size()), 1, asked_of_each);
+    std::vector<double> reaches;
     double share = 0;
-    for (dev::Light& l : packed.lights) {
-        if (l.type != LIGHT_TRIANGLE || l.pick < least_pick) continue;
-        if (spheres.empty()) spheres = spheres_of(scene);
+    for (const dev::Light* light : lights) {
+        const dev::Light& l = *light;
         const auto vector = [](const float v[3]) { return dvec3(v[0], v[1], v[2]); };
         const dvec3 corner = packed.origin + vector(l.position);
         const Corners t{corner, corner + vector(l.edge1), corner + vector(l.edge2)};
-        const Emitter light{centre_of(t), vector(l.axis), reach_in_edges * longest_edge(t),
-                            (l.flags & MATERIAL_DOUBLE_SIDED) != 0};
-        share += l.pick * reflected(light, scene, spheres);
-        reaches.emplace_back(&l, light.reach);
+        const Emitter emitter{centre_of(t), vector(l.axis), reach_in_edges * longest_edge(t),
+                              (l.flags & MATERIAL_DOUBLE_SIDED) != 0};
+        if (share < least_share) share += l.pick * reflected(emitter, scene, spheres, asked);
+        reaches.push_back(emitter.reach);
     }
     if (share >= least_share)
-        for (const auto& [light, reach] : reaches) light->range = static_cast<float>(reach);
+        for (std::size_t i = 0; i < lights.size(); ++i) lights[i]->range = static_cast<float>(reaches[i]);
 }
 
 }  // namespace triad

@@ -5,8 +5,8 @@ namespace triad {
 struct PackedScene;
 struct Scene;
 
-/// Sets `range` of triangle lights where much of the scene's light is reflected near its lamps. It follows
-/// from the scene alone, not from the eye. After picks are known.
+/// Sets `range` of triangle lights where much of the scene's light is reflected near its lamps. But for
+/// rounding it follows from the scene alone, not from the eye. After picks are known.
 void mark_near_lights(const Scene& scene, PackedScene& packed);
 
 }  // namespace triad
