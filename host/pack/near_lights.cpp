@@ -56,10 +56,10 @@ double received(const Emitter& light, const Corners& t, int splits = 6) {
     const dvec3 cross = glm::cross(t[1] - t[0], t[2] - t[0]);
     const double area = glm::length(cross) / 2;
     if (!(distance > 1e-3 * size && distance < light.reach && area > 0)) return 0;
-    const double emitted = glm::dot(light.normal, to) / distance;
+    const double front = glm::dot(light.normal, to) / distance;
+    const double emitted = light.both_sides ? std::abs(front) / 2 : std::max(front, 0.0);
     const double cosine = std::abs(glm::dot(cross, to)) / (2 * area * distance);
-    if (light.both_sides) return std::abs(emitted) * cosine * area / (pi * distance * distance + area) / 2;
-    return std::max(emitted, 0.0) * cosine * area / (pi * distance * distance + area);
+    return emitted * cosine * area / (pi * distance * distance + area);
 }
 
 /// A sphere around each mesh, in its own space.
@@ -89,7 +89,8 @@ double diffuse(const Material& m) {
     return (double(c.x) + c.y + c.z) / 3 * (1 - m.metallic) * (1 - m.transmission);
 }
 
-/// Share of the flux that all that is placed reflects diffusely within reach, once.
+/// Share of the flux that all that is placed reflects diffusely within reach, once. asked: triangles of a
+/// primitive, at most.
 double reflected(const Emitter& light, const Scene& scene, const std::vector<Sphere>& spheres,
                  std::size_t asked) {
     double sum = 0;
@@ -125,14 +126,13 @@ void mark_near_lights(const Scene& scene, PackedScene& packed) {
         asked_of_all / (std::max<std::size_t>(primitives, 1) * lights.size()), 1, asked_of_each);
     std::vector<double> reaches;
     double share = 0;
-    for (const dev::Light* light : lights) {
-        const dev::Light& l = *light;
+    for (const dev::Light* l : lights) {
         const auto vector = [](const float v[3]) { return dvec3(v[0], v[1], v[2]); };
-        const dvec3 corner = packed.origin + vector(l.position);
-        const Corners t{corner, corner + vector(l.edge1), corner + vector(l.edge2)};
-        const Emitter emitter{centre_of(t), vector(l.axis), reach_in_edges * longest_edge(t),
-                              (l.flags & MATERIAL_DOUBLE_SIDED) != 0};
-        if (share < least_share) share += l.pick * reflected(emitter, scene, spheres, asked);
+        const dvec3 corner = packed.origin + vector(l->position);
+        const Corners t{corner, corner + vector(l->edge1), corner + vector(l->edge2)};
+        const Emitter emitter{centre_of(t), vector(l->axis), reach_in_edges * longest_edge(t),
+                              (l->flags & MATERIAL_DOUBLE_SIDED) != 0};
+        if (share < least_share) share += l->pick * reflected(emitter, scene, spheres, asked);
         reaches.push_back(emitter.reach);
     }
     if (share >= least_share)

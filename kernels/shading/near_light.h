@@ -6,8 +6,8 @@
 #include "common/sampling.h"
 #include "shading/scene.h"
 
-/* A triangle as its receiver sees it, made ready for sampling: Peters 2021, "BRDF importance sampling for
- * polygonal lights", section 3 and appendix. */
+/* A triangle as its receiver sees it, made ready for sampling (Peters 2021, "BRDF importance sampling for
+ * polygonal lights"). */
 typedef struct SphericalTriangle {
     Vec3 a, b, c;      /* unit, towards the corners */
     float volume;      /* |a . (b x c)| */
