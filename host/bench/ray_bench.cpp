@@ -41,15 +41,23 @@ struct RayKind {
 /// A kind of rays in one format of nodes.
 struct RayLane {
     BvhFormat format;
-    std::unique_ptr<TreeTracer> tracer;
+    bool in_packets;
+    std::shared_ptr<TreeTracer> tracer;
     unsigned passes = 1;
     std::vector<double> mrays;
     bool is_right = true;
+
+    void trace(const RayKind& kind) const {
+        if (in_packets)
+            tracer->trace_packets();
+        else
+            tracer->trace(kind.is_occlusion);
+    }
 };
 
 double seconds_of(RayLane& lane, const RayKind& kind) {
     const auto start = RayClock::now();
-    for (unsigned i = 0; i < lane.passes; ++i) lane.tracer->trace(kind.is_occlusion);
+    for (unsigned i = 0; i < lane.passes; ++i) lane.trace(kind);
     return std::chrono::duration<double>(RayClock::now() - start).count();
 }
 
@@ -62,14 +70,14 @@ std::vector<std::uint32_t> answers(TreeTracer& tracer, bool is_occlusion) {
     return words;
 }
 
-void measure(Device& device, const std::string& scene, RayKind& kind, std::vector<RayLane>& lanes,
+void measure(Device& device, const std::string& scene, const RayKind& kind, std::vector<RayLane>& lanes,
              const std::function<bool()>& go_on, std::vector<BoardRow>& rows) {
     std::vector<std::uint32_t> expected;
     for (RayLane& lane : lanes) {
         const Walking walking(device, lane.format);
         lane.mrays.clear(), lane.passes = 1;
         lane.tracer->set_rays(kind.rays);
-        lane.tracer->trace(kind.is_occlusion);  // some drivers compile at launches
+        lane.trace(kind);  // some drivers compile at launches
         const std::vector<std::uint32_t> found = answers(*lane.tracer, kind.is_occlusion);
         if (expected.empty()) expected = found;
         lane.is_right = found == expected;
@@ -81,7 +89,7 @@ void measure(Device& device, const std::string& scene, RayKind& kind, std::vecto
     for (const RayLane& lane : lanes)
         rows.push_back({.part = BoardPart::rays,
                         .name = scene + ", " + kind.name,
-                        .format = name_of(lane.format),
+                        .format = std::string(name_of(lane.format)) + (lane.in_packets ? " packets" : ""),
                         .value = median_estimate(lane.mrays),
                         .unit = "M/s",
                         .is_right = lane.is_right,
@@ -96,11 +104,14 @@ std::vector<BoardRow> measure_rays(Device& device, const std::string& scene, uns
     std::vector<RayLane> lanes;
     for (const BvhFormat format : all_bvh_formats) {
         const Walking walking(device, format);
-        lanes.push_back({format, std::make_unique<TreeTracer>(device, where)});
+        lanes.push_back({format, false, std::make_shared<TreeTracer>(device, where)});
     }
     std::vector<BoardRow> rows;
     RayKind kind{"camera", false, primary_rays(where, size)};
-    measure(device, scene, kind, lanes, go_on, rows);
+    std::vector<RayLane> camera_lanes = lanes;
+    for (const RayLane& lane : lanes)
+        if (lane.tracer->walks_packets()) camera_lanes.push_back({lane.format, true, lane.tracer});
+    measure(device, scene, kind, camera_lanes, go_on, rows);
     const auto ends = [&] { return ends_of(where, kind.rays, lanes.front().tracer->hits()); };
     kind = {"diffuse", false, diffuse_rays(ends())};
     measure(device, scene, kind, lanes, go_on, rows);

@@ -34,8 +34,9 @@ std::vector<dev::Ray> primary_rays(const RayScene& scene, unsigned size) {
     const vec3 right = glm::normalize(glm::cross(forward, vec3(0, 1, 0))), up = glm::cross(right, forward);
     std::vector<dev::Ray> rays;
     for (unsigned i = 0; i < size * size; ++i) {
-        const unsigned tile = i / 64, x = tile % (size / 8) * 8 + i % 8,
-                       y = tile / (size / 8) * 8 + i % 64 / 8;
+        const unsigned tile = i / 64, block = i % 64 / 8;
+        const unsigned x = tile % (size / 8) * 8 + block % 2 * 4 + i % 4,
+                       y = tile / (size / 8) * 8 + block / 2 * 2 + i % 8 / 4;
         const float u = (float(x) + 0.5f) / float(size) * 2 - 1, v = 1 - (float(y) + 0.5f) / float(size) * 2;
         rays.push_back(make_ray(scene.eye, glm::normalize(forward + scene.half_height * (u * right + v * up)),
                                 infinity, TRIAD_NONE));

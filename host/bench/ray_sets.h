@@ -8,7 +8,7 @@
 
 namespace triad {
 
-/// One ray per pixel of size x size, in tiles of 8 x 8.
+/// One ray per pixel of size x size, in tiles of 8 x 8, and in these in blocks of 4 x 2.
 std::vector<dev::Ray> primary_rays(const RayScene& scene, unsigned size);
 
 /// Where a ray hit, a little before the surface, so that a tracer which cannot skip a triangle sees the same

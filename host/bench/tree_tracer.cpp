@@ -23,6 +23,7 @@ TreeTracer::TreeTracer(Device& device, const RayScene& scene) : device_(device) 
     const Program program = device_.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}});
     closest_ = program.kernel("intersect_closest");
     occluded_ = program.kernel("intersect_occluded");
+    if (triad::walks_packets(device)) packets_ = program.kernel("intersect_packets");
 }
 
 void TreeTracer::set_rays(const std::vector<dev::Ray>& rays) {
@@ -31,10 +32,14 @@ void TreeTracer::set_rays(const std::vector<dev::Ray>& rays) {
     results_ = device_.allocate(rays.size() * sizeof(dev::Hit));
 }
 
-void TreeTracer::trace(bool occluded) {
+void TreeTracer::trace(bool occluded) { run(occluded ? occluded_ : closest_, count_); }
+
+void TreeTracer::trace_packets() { run(packets_.value(), (count_ + PACKET_RAYS - 1) / PACKET_RAYS); }
+
+void TreeTracer::run(const Kernel& kernel, std::size_t items) {
     const Arguments arguments =
         Arguments().add(nodes_).add(blocks_).add(Buffer{}).add(root_).add(rays_).add(results_).add(count_);
-    device_.run(occluded ? occluded_ : closest_, arguments, count_);
+    device_.run(kernel, arguments, items);
     device_.finish();
 }
 

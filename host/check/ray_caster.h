@@ -103,6 +103,10 @@ class RayCaster {
     std::vector<std::uint32_t> occluded(const std::vector<dev::Ray>& rays) const {
         return trace<std::uint32_t>("intersect_occluded", rays);
     }
+    /// Of bvh8, with TRIAD_PACKETS=1: closest() of neighbours together.
+    std::vector<dev::Hit> packets(const std::vector<dev::Ray>& rays) const {
+        return trace<dev::Hit>("intersect_packets", rays, PACKET_RAYS);
+    }
 
   private:
     void upload(const BvhPool& pool, std::span<const dev::Instance> instances, const BvhRoots& roots,
@@ -115,7 +119,8 @@ class RayCaster {
     }
 
     template <class Result>
-    std::vector<Result> trace(const char* kernel, const std::vector<dev::Ray>& rays) const {
+    std::vector<Result> trace(const char* kernel, const std::vector<dev::Ray>& rays,
+                              std::size_t rays_of_item = 1) const {
         const Buffer in = device_.upload(rays), out = device_.allocate(rays.size() * sizeof(Result));
         device_.run(program_.kernel(kernel),
                     Arguments()
@@ -126,7 +131,7 @@ class RayCaster {
                         .add(in)
                         .add(out)
                         .add(std::uint32_t(rays.size())),
-                    rays.size());
+                    (rays.size() + rays_of_item - 1) / rays_of_item);
         device_.finish();
         return device_.download<Result>(out);
     }

@@ -202,6 +202,40 @@ void same_hits_in_every_format(Check& check) {
     check.above(hit, rays.size() / 5, "hits");
 }
 
+/// PACKET_RAYS neighbours from about one point to about another, or, at `apart` 1, from anywhere to anywhere.
+void add_packet(std::vector<dev::Ray>& rays, Random& random, bool from_one_point, double apart) {
+    dvec3 from = random.in_cube(4.0), to = random.in_cube(3.0);
+    // along an axis or a diagonal: signs and the largest component differ within the packet
+    if (random() < 0.3) to[int(random.below(3))] = from[int(random.below(3))];
+    if (random() < 0.3) to = from + (random() < 0.5 ? 1.0 : -1.0) * dvec3(to.x - from.x);
+    for (unsigned i = 0; i < PACKET_RAYS; ++i) {
+        const dvec3 origin = from_one_point ? from : from + random.in_cube(4.0 * apart);
+        rays.push_back(ray_towards(origin, to + random.in_cube(6.0 * apart)));
+        if (random() < 0.1) rays.back().t_max = float(random.between(0.1, 4.0));
+    }
+}
+
+// Boxes are met by bounds on all rays, triangles are left out that no ray can hit, and the last packet is
+// short.
+void packets_hit_what_rays_hit(Check& check) {
+    const WithFormat walks(check.device, BvhFormat::bvh8);
+    const RayCaster caster(check.device, crowded_world(), {{"TRIAD_PACKETS", "1"}});
+    std::vector<dev::Ray> rays;
+    Random random(61);
+    for (const double apart : {0.0, 1e-6, 1e-3, 0.01, 0.1, 1.0})
+        for (std::size_t packet = 0; packet < check.count(600, 8); ++packet)
+            add_packet(rays, random, packet % 3 != 0, apart);
+    rays.resize(rays.size() - 3);
+    const auto alone = caster.closest(rays), together = caster.packets(rays);
+    std::size_t hit = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check.holds(std::memcmp(&alone[i], &together[i], sizeof(dev::Hit)) == 0, "hit of ray ", i,
+                    " differs");
+        hit += alone[i].primitive != TRIAD_NONE;
+    }
+    check.above(hit, rays.size() / 3, "hits");
+}
+
 }  // namespace
 
 void add_traversal_reference(std::vector<CheckCase>& cases) {
@@ -218,6 +252,7 @@ void add_traversal_reference(std::vector<CheckCase>& cases) {
                      {"T8", "t_max is the last t that counts", quick, t_max_counts},
                      {"T9", "same bits without instances", standard, same_bits_without_instances},
                      {"T10", "same hits in every format of nodes", quick, same_hits_in_every_format},
+                     {"T11", "packets hit what their rays hit alone", quick, packets_hit_what_rays_hit},
                  });
 }
 

@@ -5,7 +5,7 @@
 namespace triad {
 namespace {
 
-constexpr const char* option = "TRIAD_BVH4";
+constexpr const char *option = "TRIAD_BVH4", *packets = "TRIAD_PACKETS";
 
 }  // namespace
 
@@ -16,6 +16,7 @@ BvhFormat default_format(const DeviceInfo& device) {
 void set_format(Device& device, BvhFormat format) {
     Options shape = device.shape();
     shape[option] = format == BvhFormat::bvh4 ? "1" : "0";
+    shape[packets] = format == BvhFormat::bvh8 && device.info().type == "cpu" ? "1" : "0";
     // GPUs keep in memory what a function hands to one that it calls.
     if (device.info().type == "gpu") shape["TRIAD_INLINED"] = "1";
     device.set_shape(std::move(shape));
@@ -24,6 +25,11 @@ void set_format(Device& device, BvhFormat format) {
 BvhFormat format_of(const Device& device) {
     const auto found = device.shape().find(option);
     return found != device.shape().end() && found->second == "1" ? BvhFormat::bvh4 : BvhFormat::bvh8;
+}
+
+bool walks_packets(const Device& device) {
+    const auto found = device.shape().find(packets);
+    return found != device.shape().end() && found->second == "1";
 }
 
 DeviceArray<dev::BvhNode> nodes_on(Device& device, const BvhPool& pool, std::shared_ptr<const void> owner) {

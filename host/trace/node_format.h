@@ -1,5 +1,6 @@
 #pragma once
-/// Which nodes a device walks (bvh/bvh.h): a value of the option TRIAD_BVH4 of all its programs.
+/// Which nodes a device walks (bvh/bvh.h), and how: values of TRIAD_BVH4 and TRIAD_PACKETS of all its
+/// programs.
 #include "bvh/bvh.h"
 #include "device/device.h"
 
@@ -11,6 +12,8 @@ BvhFormat default_format(const DeviceInfo& device);
 /// What the device's programs walk from now on; bvh8 until this is called.
 void set_format(Device& device, BvhFormat format);
 BvhFormat format_of(const Device& device);
+/// Whether its programs walk the camera's rays in packets (kernels/traversal/packet.h): CPUs with bvh8 do.
+bool walks_packets(const Device& device);
 
 /// The pool's nodes of the device's format, on it. `owner` keeps the pool; null: they are copied.
 DeviceArray<dev::BvhNode> nodes_on(Device& device, const BvhPool& pool,

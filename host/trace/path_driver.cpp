@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "trace/node_format.h"
 #include "trace/program.h"
 #include "trace/wave_driver.h"
 
@@ -18,8 +19,9 @@ class Mega : public PathDriver {
               device_.build(program_of(settings, "mega"), options_of(features)).kernel("trace_paths")) {}
 
     void trace(const Arguments& scene, const dev::TracePathsArguments& work) override {
+        const std::size_t pixels_of_item = walks_packets(device_) ? MEGA_BLOCK : 1;
         device_.run(trace_paths_, Arguments(scene).add(arguments_of(work)),
-                    work.work_count * std::size_t(FILM_TILE_PIXELS));
+                    work.work_count * (FILM_TILE_PIXELS / pixels_of_item));
     }
     std::uint64_t bytes() const override { return 0; }
     std::size_t most_tiles() const override {

@@ -12,6 +12,13 @@
 #define TRIAD_BVH4 0
 #endif
 
+/* 1: the camera's rays are walked in packets (traversal/packet.h), which takes nodes of eight boxes and pays
+ * on CPUs (host/trace/node_format.h). Hits are the same bit for bit. */
+#if !defined(TRIAD_PACKETS) || TRIAD_BVH4
+#undef TRIAD_PACKETS
+#define TRIAD_PACKETS 0
+#endif
+
 #include "common/builtins.h"
 #include "features.h"
 #include "types.h"

@@ -20,7 +20,7 @@ kernel void count_work(SCENE_PARAMETERS PARAMETERS(COUNT_WORK_LIST)) {
         const CameraSample sample =
             camera_sample(&scene, &local_frame, pixel % local_frame.crop[2], pixel / local_frame.crop[2], i);
         PathState path = path_start(&scene, &sample);
-        mega_follow(&scene, &path, &tally);
+        mega_follow(&scene, &path, 0, &tally);
     }
     work[pixel] = tally.work;
 }

@@ -8,10 +8,22 @@
 #include "path/rays.h"
 #include "path/survive.h"
 
-/* An edge and the vertex at its end. 0: the path ends there. */
-TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally* tally) {
+/* Where the path's edge ends. camera_hit: of its first edge, if that is known; else null. */
+TRIAD_FUNCTION_PER_CALL Hit mega_closest(const Scene* scene, const PathState* path, const Hit* camera_hit,
+                                         Tally* tally) {
+#if TRIAD_PACKETS
+    if (camera_hit != 0 && path->edge == 1u && !path_is_back(path)) return *camera_hit;
+#else
+    (void)camera_hit;
+#endif
+    return path_closest(scene, path, tally);
+}
+
+/* An edge and the vertex at its end. camera_hit: of mega_closest(). 0: the path ends there. */
+TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, const Hit* camera_hit,
+                                      Tally* tally) {
     const SamplerBlock u = path_numbers(path);
-    const Hit hit = path_closest(scene, path, tally);
+    const Hit hit = mega_closest(scene, path, camera_hit, tally);
     if (hit.primitive == TRIAD_NONE) {
         path_miss(scene, path, &hit, tally);
         return 0;
@@ -41,8 +53,9 @@ TRIAD_FUNCTION_PER_CALL int mega_edge(const Scene* scene, PathState* path, Tally
 }
 
 /* To the end of a path that has started. */
-TRIAD_FUNCTION_PER_CALL void mega_follow(const Scene* scene, PathState* path, Tally* tally) {
-    while (mega_edge(scene, path, tally) || path_next_wavelength(path)) {
+TRIAD_FUNCTION_PER_CALL void mega_follow(const Scene* scene, PathState* path, const Hit* camera_hit,
+                                         Tally* tally) {
+    while (mega_edge(scene, path, camera_hit, tally) || path_next_wavelength(path)) {
     }
 }
 

@@ -18,7 +18,7 @@ kernel void record_paths(SCENE_PARAMETERS PARAMETERS(RECORD_PATHS_LIST)) {
     PathState path = path_start(&scene, &sample);
     Tally tally = tally_start();
     tally.path = vertices + item * PATH_VERTICES;
-    mega_follow(&scene, &path, &tally);
+    mega_follow(&scene, &path, 0, &tally);
     PathRecord record;
     const Vec4 value = path_value(&path, sample.weight);
     record.value[0] = value.x, record.value[1] = value.y, record.value[2] = value.z,

@@ -91,20 +91,23 @@ TRIAD_FUNCTION void slab_intersect(global const Bvh4Node* node, const SlabRay* r
 
 #else
 
+/* t of the planes of eight boxes, in the row of Bvh8Node.bounds that begins with its float `row`. */
+TRIAD_FUNCTION float8 slab_planes(global const Bvh8Node* node, uint row, const SlabRay* ray, int axis) {
+    return fma(vload8(0, &node->bounds[0][0] + row), (float8)(ray->inverse[axis]),
+               (float8)(ray->offset[axis]));
+}
+
 /* Eight boxes: entry distances, and the top bit of a byte for each child that the ray meets within [0,
- * t_max]. */
-TRIAD_FUNCTION ulong slab_intersect(global const Bvh8Node* node, const SlabRay* ray, float t_max,
-                                    float8* entry) {
-    global const float* bounds = &node->bounds[0][0];
-    const float8 ix = (float8)(ray->inverse[0]), iy = (float8)(ray->inverse[1]),
-                 iz = (float8)(ray->inverse[2]);
-    const float8 ox = (float8)(ray->offset[0]), oy = (float8)(ray->offset[1]), oz = (float8)(ray->offset[2]);
-    const float8 nx = fma(vload8(0, bounds + ray->near_row[0]), ix, ox);
-    const float8 ny = fma(vload8(0, bounds + ray->near_row[1]), iy, oy);
-    const float8 nz = fma(vload8(0, bounds + ray->near_row[2]), iz, oz);
-    const float8 fx = fma(vload8(0, bounds + (ray->near_row[0] ^ 8u)), ix, ox);
-    const float8 fy = fma(vload8(0, bounds + (ray->near_row[1] ^ 8u)), iy, oy);
-    const float8 fz = fma(vload8(0, bounds + (ray->near_row[2] ^ 8u)), iz, oz);
+ * t_max]. Of rays that are walked together (packet.h) `enters` meets near planes no later than any of them,
+ * and `leaves` far planes no sooner; of one ray both are itself. */
+TRIAD_FUNCTION ulong slab_intersect(global const Bvh8Node* node, const SlabRay* enters, const SlabRay* leaves,
+                                    float t_max, float8* entry) {
+    const float8 nx = slab_planes(node, enters->near_row[0], enters, 0);
+    const float8 ny = slab_planes(node, enters->near_row[1], enters, 1);
+    const float8 nz = slab_planes(node, enters->near_row[2], enters, 2);
+    const float8 fx = slab_planes(node, enters->near_row[0] ^ 8u, leaves, 0);
+    const float8 fy = slab_planes(node, enters->near_row[1] ^ 8u, leaves, 1);
+    const float8 fz = slab_planes(node, enters->near_row[2] ^ 8u, leaves, 2);
     /* Ternaries, not fmin and fmax: no operand is NaN, and these are one instruction each. */
     float8 tn = nx > ny ? nx : ny, tf = fx < fy ? fx : fy;
     tn = tn > nz ? tn : nz;

@@ -1,16 +1,11 @@
-/* Watertight ray-triangle test: of the four triangles of a block at once, or (TRIAD_BVH4) of one.
- * Woop, Benthin, Wald: Watertight Ray/Triangle Intersection, JCGT 2(1), 2013. The edge functions are
- * differences of products compensated with fma (Kahan; error <= 1.5 ulp, so the sign is exact), which
- * replaces the paper's fall-back to double: neighbours that share an edge always agree on which side of it
- * the ray passes.
- */
+/* A ray against a block: all of its four triangles at once, or (TRIAD_BVH4) one. The test is edges.h. */
 #ifndef TRIAD_TRAVERSAL_TRIANGLE_H
 #define TRIAD_TRAVERSAL_TRIANGLE_H
-#include "common/language.h"
+#include "traversal/edges.h"
 
 /* What the test needs of a ray, once per ray and space: axes permuted so that z is the direction's largest
- * (section 3.1), the shear that maps the direction to (0, 0, 1), and the rows of TriangleBlock.vertex that
- * hold the permuted axes. */
+ * (edges.h; section 3.1), the shear that maps the direction to (0, 0, 1), and the rows of
+ * TriangleBlock.vertex that hold the permuted axes. */
 typedef struct TriangleRay {
     float origin_x, origin_y, origin_z;
     float shear_x, shear_y, shear_z;
@@ -32,6 +27,16 @@ typedef int4 TriangleMask;
 typedef struct TriangleHits {
     TriangleFloat t, u, v;
 } TriangleHits;
+
+TRIANGLE_DIFFERENCE_OF_PRODUCTS(triangle_difference_of_products, TriangleFloat)
+
+/* Of four triangles some are hit. */
+#if TRIAD_BVH4
+#define TRIANGLE_STOP(lanes) \
+    if (!lanes) return 0
+#else
+#define TRIANGLE_STOP(lanes)
+#endif
 
 /* One of three by an index. Where items are the lanes it is not read from an array, which would be one in
  * memory; a CPU reads it from there sooner than it has chosen. */
@@ -62,13 +67,6 @@ TRIAD_FUNCTION TriangleRay triangle_ray(const float origin[3], const float direc
     return ray;
 }
 
-/* a b - c d, relative error <= 1.5 ulp (Jeannerod, Louvet, Muller 2013, algorithm 2). */
-TRIAD_FUNCTION TriangleFloat triangle_difference_of_products(TriangleFloat a, TriangleFloat b,
-                                                             TriangleFloat c, TriangleFloat d) {
-    const TriangleFloat cd = c * d;
-    return fma(a, b, -cd) + fma(-c, d, cd);
-}
-
 /* Which of the triangles from `lane` of `block` on are hit with 0 < t <= t_max and are not the primitive
  * `skip`; their t, u, v in `hits`. Both sides count; an edge counts for both its triangles; a triangle
  * without area is never hit. */
@@ -88,24 +86,8 @@ TRIAD_FUNCTION TriangleMask triangle_intersect(global const TriangleBlock* block
     const TriangleFloat by = fma(sy, bz, TRIANGLE_LOAD(lane, y + 12) - ray->origin_y);
     const TriangleFloat cx = fma(sx, cz, TRIANGLE_LOAD(lane, x + 24) - ray->origin_x);
     const TriangleFloat cy = fma(sy, cz, TRIANGLE_LOAD(lane, y + 24) - ray->origin_y);
-
-    const TriangleFloat u = triangle_difference_of_products(cx, by, cy, bx);
-    const TriangleFloat v = triangle_difference_of_products(ax, cy, ay, cx);
-    const TriangleFloat w = triangle_difference_of_products(bx, ay, by, ax);
-    TriangleFloat least = u < v ? u : v, most = u > v ? u : v;
-    least = least < w ? least : w;
-    most = most > w ? most : w;
-    const TriangleFloat determinant = u + v + w;
-    const TriangleMask lanes = ((least >= 0.0f) | (most <= 0.0f)) & (determinant != 0.0f);
-#if TRIAD_BVH4
-    if (!lanes) return 0; /* what is left is a division, which few triangles need */
-#endif
-
-    const TriangleFloat inverse = 1.0f / determinant;
-    const TriangleFloat t = fma(u, az, fma(v, bz, w * cz)) * ray->shear_z * inverse;
-    hits->t = t;
-    hits->u = v * inverse;
-    hits->v = w * inverse;
+    const float shear_z = ray->shear_z;
+    TRIANGLE_EDGES(TriangleFloat, TriangleMask, triangle_difference_of_products, TRIANGLE_STOP);
     return lanes & (t > 0.0f) & (t <= t_max) & (TRIANGLE_LOAD(lane, block->primitive) != skip);
 }
 

@@ -52,6 +52,32 @@ TRIAD_FUNCTION void traversal_prefetch(const Traversal* scene, uint child) {
 /* A child and where the ray enters it, which is not negative: packs compare as their entries. */
 TRIAD_FUNCTION ulong traversal_pack(uint child, float entry) { return (ulong)as_uint(entry) << 32 | child; }
 
+/* Which of the children in `mask`, of which there is one, is walked next; the others go to the stack. Nearer
+ * ones come first; with `any` as the node has them. */
+TRIAD_FUNCTION_PER_CALL uint traversal_choose(const Traversal* scene, global const Bvh8Node* node, ulong mask,
+                                              float8 entries, ulong* stack, uint* size, const int any) {
+    const uint first = slab_next(&mask);
+    if (mask == 0ul) return node->child[first];
+    float entry[8];
+    vstore8(entries, 0, entry);
+    ulong nearest = traversal_pack(node->child[first], any ? 0.0f : entry[first]);
+    const uint floor_of_node = *size;
+    do {
+        const uint next = slab_next(&mask);
+        const ulong other = traversal_pack(node->child[next], any ? 0.0f : entry[next]);
+        const ulong farther = any ? other : max(nearest, other);
+        nearest = any ? nearest : min(nearest, other);
+        uint place = (*size)++;
+        if (!any)
+            for (; place > floor_of_node && stack[place - 1u] < farther; --place)
+                stack[place] = stack[place - 1u];
+        stack[place] = farther;
+        traversal_prefetch(scene, (uint)other);
+    } while (mask != 0ul);
+    TRAVERSAL_WAITING(scene, *size);
+    return (uint)nearest;
+}
+
 /* The walk. `any` is a constant of the call: 1 stops at the first hit and returns 1, 0 leaves the closest in
  * `best`. */
 TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ray, Hit* best, const int any) {
@@ -76,31 +102,9 @@ TRIAD_FUNCTION_PER_CALL int traversal_walk(const Traversal* scene, const Ray* ra
             TRAVERSAL_COUNT(scene, nodes, 1u);
             global const Bvh8Node* node = scene->nodes + child;
             float8 entries;
-            ulong mask = slab_intersect(node, &space.slab, best->t, &entries);
+            const ulong mask = slab_intersect(node, &space.slab, &space.slab, best->t, &entries);
             if (mask != 0ul) {
-                const uint first = slab_next(&mask);
-                if (mask == 0ul) {
-                    child = node->child[first];
-                    continue;
-                }
-                float entry[8];
-                vstore8(entries, 0, entry);
-                ulong nearest = traversal_pack(node->child[first], any ? 0.0f : entry[first]);
-                const uint floor_of_node = size;
-                do { /* the nearest child is walked next, the others lie in order on the stack */
-                    const uint next = slab_next(&mask);
-                    const ulong other = traversal_pack(node->child[next], any ? 0.0f : entry[next]);
-                    const ulong farther = any ? other : max(nearest, other);
-                    nearest = any ? nearest : min(nearest, other);
-                    uint place = size++;
-                    if (!any)
-                        for (; place > floor_of_node && stack[place - 1u] < farther; --place)
-                            stack[place] = stack[place - 1u];
-                    stack[place] = farther;
-                    traversal_prefetch(scene, (uint)other);
-                } while (mask != 0ul);
-                TRAVERSAL_WAITING(scene, size);
-                child = (uint)nearest;
+                child = traversal_choose(scene, node, mask, entries, stack, &size, any);
                 continue;
             }
         }

@@ -85,6 +85,9 @@ typedef struct Ray {
 } Ray;
 TRIAD_SIZE(Ray, 48);
 
+/* Rays that are walked together (traversal/packet.h). */
+#define PACKET_RAYS 8
+
 /* Closest hit; primitive is TRIAD_NONE when there is none. u, v are the barycentric weights of corners 1
  * and 2. At equal t the lower (instance, primitive) wins on every device. */
 typedef struct Hit {

@@ -77,6 +77,9 @@ typedef struct Frame {
 } Frame;
 TRIAD_SIZE(Frame, 352);
 
+/* Pixels of a tile that an item of path/mega.cl has, where camera rays are walked in packets. */
+#define MEGA_BLOCK 8
+
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
  * The pixels of a tile are two sets, like the squares of a chessboard: set (x ^ y) & 1. Adaptive sampling
  * decides for one set by what the other has found, so that no pixel's samples decide how many it gets

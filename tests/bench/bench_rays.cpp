@@ -172,8 +172,14 @@ nlohmann::json measure(const RayScene& scene, const std::string& kind, const std
                        {"kind", kind},
                        {"rays", rays.size()}};
     tracer.set_rays(rays);
-    tracer.trace(occlusion);
-    Race race{{"triad", [&] { return seconds_of([&] { tracer.trace(occlusion); }); }}};
+    const auto trace = [&] {
+        if (kind == "packets")
+            tracer.trace_packets();
+        else
+            tracer.trace(occlusion);
+    };
+    trace();
+    Race race{{"triad", [&] { return seconds_of(trace); }}};
     std::vector<dev::Hit> hits(rays.size());
     std::vector<std::uint32_t> occluded(rays.size());
     const auto embree = [&](const EmbreeTracer& peer) {
@@ -247,6 +253,7 @@ int run(int argc, char** argv) {
         };
         const auto primary = primary_rays(scene, options.size);
         add("primary", primary);
+        if (tracer.walks_packets()) add("packets", primary);
         const auto seen = ends_of(scene, primary, tracer.hits());
         const auto diffuse = diffuse_rays(seen);
         add("diffuse", diffuse);
