@@ -43,11 +43,22 @@ dev::Ray any_ray(any_bits::Words& words) {
     return r;
 }
 
+std::vector<dev::Ray> any_rays(std::size_t count) {
+    any_bits::Words words(25);
+    std::vector<dev::Ray> rays(count);
+    for (dev::Ray& r : rays) r = any_ray(words);
+    return rays;
+}
+
+/// A triangle of the scene, where the ray goes.
+bool is_of(const World& world, const dev::Hit& hit, const dev::Ray& ray) {
+    return hit.primitive < world.triangle_count && hit.instance <= world.placements.size() && hit.t > 0 &&
+           hit.t <= ray.t_max;
+}
+
 void rays_of_any_bits(Check& check) {
     const World world = world_of_both_levels();
-    any_bits::Words words(25);
-    std::vector<dev::Ray> rays(check.count(1 << 21, 2048));
-    for (dev::Ray& r : rays) r = any_ray(words);
+    const std::vector<dev::Ray> rays = any_rays(check.count(1 << 21, 2048));
     const RayCaster caster(check.device, world);
     const auto hits = caster.closest(rays);
     const auto occluded = caster.occluded(rays);
@@ -57,9 +68,23 @@ void rays_of_any_bits(Check& check) {
         const bool hits_something = hit.primitive != TRIAD_NONE;
         found += hits_something;
         wrong += occluded[i] != (hits_something ? 1u : 0u);
-        if (hits_something)
-            wrong += hit.primitive >= world.triangle_count || hit.instance > world.placements.size() ||
-                     !(hit.t > 0 && hit.t <= rays[i].t_max);
+        if (hits_something) wrong += !is_of(world, hit, rays[i]);
+    }
+    check.at_most(double(wrong), 0, "answers that are none, of ", rays.size());
+    check.above(double(found), double(rays.size()) / 100, "rays that hit something");
+}
+
+// Bounds on rays that are no numbers are none: what lies beside such a ray may be missed, or all be visited.
+void packets_of_any_bits(Check& check) {
+    const WithFormat walks(check.device, BvhFormat::bvh8);
+    const World world = world_of_both_levels();
+    const std::vector<dev::Ray> rays = any_rays(check.count(1 << 20, 2048));
+    const auto hits = RayCaster(check.device, world, {{"TRIAD_PACKETS", "1"}}).packets(rays);
+    std::size_t found = 0, wrong = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (hits[i].primitive == TRIAD_NONE) continue;
+        ++found;
+        wrong += !is_of(world, hits[i], rays[i]);
     }
     check.at_most(double(wrong), 0, "answers that are none, of ", rays.size());
     check.above(double(found), double(rays.size()) / 100, "rays that hit something");
@@ -69,6 +94,7 @@ void rays_of_any_bits(Check& check) {
 
 void add_any_bits(std::vector<CheckCase>& cases) {
     cases.push_back({"C25", "rays of any bits", CheckLevel::quick, rays_of_any_bits});
+    cases.push_back({"C25b", "packets of any bits", CheckLevel::quick, packets_of_any_bits});
 }
 
 }  // namespace triad

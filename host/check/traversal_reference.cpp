@@ -215,6 +215,17 @@ void add_packet(std::vector<dev::Ray>& rays, Random& random, bool from_one_point
     }
 }
 
+void expect_packets(Check& check, const RayCaster& caster, const std::vector<dev::Ray>& rays) {
+    const auto alone = caster.closest(rays), together = caster.packets(rays);
+    std::size_t hit = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        check.holds(std::memcmp(&alone[i], &together[i], sizeof(dev::Hit)) == 0, "hit of ray ", i,
+                    " differs");
+        hit += alone[i].primitive != TRIAD_NONE;
+    }
+    check.above(hit, rays.size() / 3, "hits");
+}
+
 // Boxes are met by bounds on all rays, triangles are left out that no ray can hit, and the last packet is
 // short.
 void packets_hit_what_rays_hit(Check& check) {
@@ -226,14 +237,11 @@ void packets_hit_what_rays_hit(Check& check) {
         for (std::size_t packet = 0; packet < check.count(600, 8); ++packet)
             add_packet(rays, random, packet % 3 != 0, apart);
     rays.resize(rays.size() - 3);
-    const auto alone = caster.closest(rays), together = caster.packets(rays);
-    std::size_t hit = 0;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        check.holds(std::memcmp(&alone[i], &together[i], sizeof(dev::Hit)) == 0, "hit of ray ", i,
-                    " differs");
-        hit += alone[i].primitive != TRIAD_NONE;
-    }
-    check.above(hit, rays.size() / 3, "hits");
+    expect_packets(check, caster, rays);
+    expect_packets(
+        check,
+        RayCaster(check.device, soup(2000, 3.0, 0.5, 67), {{"TRIAD_PACKETS", "1"}, {"TRIAD_INSTANCES", "0"}}),
+        rays);
 }
 
 }  // namespace

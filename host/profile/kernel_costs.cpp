@@ -7,7 +7,7 @@ namespace {
 
 /// Of a ray and a box: six fused multiply-adds (kernels/traversal/slab.h), and as many minima and maxima.
 constexpr double box_flops = 18;
-/// Of a ray and a triangle (kernels/traversal/triangle.h): 21 that move and shear three corners, 18 of three
+/// Of a ray and a triangle (kernels/traversal/edges.h): 21 that move and shear three corners, 18 of three
 /// edge functions, 2 of their sum, 14 of the distance and the weights.
 constexpr double triangle_flops = 55;
 

@@ -12,7 +12,8 @@ BvhFormat default_format(const DeviceInfo& device);
 /// What the device's programs walk from now on; bvh8 until this is called.
 void set_format(Device& device, BvhFormat format);
 BvhFormat format_of(const Device& device);
-/// Whether its programs walk the camera's rays in packets (kernels/traversal/packet.h): CPUs with bvh8 do.
+/// Whether its programs walk the camera's rays in packets (kernels/traversal/packet.h): most CPUs with bvh8
+/// do.
 bool walks_packets(const Device& device);
 
 /// The pool's nodes of the device's format, on it. `owner` keeps the pool; null: they are copied.

@@ -13,7 +13,9 @@
 namespace triad {
 
 enum class PathDriverKind {
-    mega,  ///< a work-item follows the paths of a pixel, one after the other (kernels/path/mega.cl)
+    /// a work-item follows the paths of a pixel, or of a few neighbours, one after the other
+    /// (kernels/path/mega.cl)
+    mega,
     /// of CPUs: a work-item takes a pool of paths through one stage after the other (kernels/path/wave.cl)
     wave,
     /// of GPUs: each stage is a launch over all paths that are under way (kernels/path/wave_stages.cl)

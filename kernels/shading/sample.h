@@ -1,4 +1,5 @@
-/* Which pixel a work-item is, and what a sample of a pixel is called: bin, half, random numbers, camera ray.
+/* Where the pixels of tiles lie, and what a sample of a pixel is called: bin, half, random numbers, camera
+ * ray.
  */
 #ifndef TRIAD_SHADING_SAMPLE_H
 #define TRIAD_SHADING_SAMPLE_H
@@ -7,7 +8,7 @@
 #include "shading/camera.h"
 #include "shading/ray_filter.h"
 
-/* Film position of work-item i of the crop: tile by tile, so that neighbours in a work-group are
+/* Film position of pixel i of the crop, counted tile by tile, so that neighbours in a work-group are
  * neighbours in the picture. Outside the crop (ragged edges): returns 0. */
 TRIAD_FUNCTION int sample_pixel(const uint crop[4], uint i, uint* x, uint* y) {
     const uint tiles = (crop[2] + FILM_TILE - 1u) / FILM_TILE;

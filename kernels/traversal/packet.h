@@ -2,7 +2,8 @@
  * all of them, over nodes of eight boxes. A box is met that any of them may meet, by bounds on their origins
  * and directions; triangles are then tested against every ray at once. The hits are those of
  * traverse_closest(), bit for bit: boxes decide nothing, and the test of triangles is one text (edges.h).
- * Any rays may be walked so, but those that have little in common visit much for each other.
+ * Any rays may be walked so, but those that have little in common visit much for each other, and one that is
+ * no ray (NaN, no direction) may take the hits of the others.
  * After Wald, Slusallek, Benthin, Wagner, "Interactive rendering with coherent ray tracing" (2001), and
  * Boulos et al., "Packet-based Whitted and distribution ray tracing" (2007), whose bounds are by intervals
  * too. */
@@ -17,7 +18,7 @@ TRIANGLE_DIFFERENCE_OF_PRODUCTS(packet_difference_of_products, PacketFloat)
 /* Which triangles of a block some ray may hit, as the top bits of bytes: not those that lie to one side of
  * all rays, which go out from one point and share their axes. Sheared coordinates rise or fall with the
  * shear, rounded or not, so that the two ends bound what edges.h sees; it hits nothing whose corners all have
- * an x, or a y, of one sign. */
+ * an x, or a y, of one sign (products below 2^-126, which are 0, aside). */
 TRIAD_FUNCTION uint packet_candidates(const PacketSpace* space, global const TriangleBlock* block) {
     if (!space->culls) return 0x80808080u;
     global const float* corner = &block->vertex[0][0];
@@ -39,7 +40,9 @@ TRIAD_FUNCTION uint packet_candidates(const PacketSpace* space, global const Tri
         y_most = y_high > y_most ? y_high : y_most;
     }
     const int4 may = (x_least <= 0.0f) & (x_most >= 0.0f) & (y_least <= 0.0f) & (y_most >= 0.0f);
-    return as_uint(convert_char4(may)) & 0x80808080u;
+    /* Selects: as of traversal_visit_leaf(). */
+    return (may.s0 ? 0x80u : 0u) | (may.s1 ? 0x8000u : 0u) | (may.s2 ? 0x800000u : 0u) |
+           (may.s3 ? 0x80000000u : 0u);
 }
 
 /* A corner of a triangle as every ray sees it. */

@@ -108,7 +108,8 @@ TRIAD_FUNCTION ulong slab_intersect(global const Bvh8Node* node, const SlabRay* 
     const float8 fx = slab_planes(node, enters->near_row[0] ^ 8u, leaves, 0);
     const float8 fy = slab_planes(node, enters->near_row[1] ^ 8u, leaves, 1);
     const float8 fz = slab_planes(node, enters->near_row[2] ^ 8u, leaves, 2);
-    /* Ternaries, not fmin and fmax: no operand is NaN, and these are one instruction each. */
+    /* Ternaries, not fmin and fmax: these are one instruction each. Of rays no operand is NaN but where a
+     * child is empty, of which some far plane is left. */
     float8 tn = nx > ny ? nx : ny, tf = fx < fy ? fx : fy;
     tn = tn > nz ? tn : nz;
     tf = tf < fz ? tf : fz;

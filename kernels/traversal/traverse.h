@@ -1,10 +1,11 @@
 /* Rays against trees: closest hit and occlusion.
  *
- * Two walks over two formats of nodes (TRIAD_BVH4). Over eight boxes every lane of the node test belongs to
- * one ray: on a CPU that is where the vector units are, and drivers that vectorise across work-items run it
- * with local size 1 (measured per device, see docs/performance.md). Over four everything is scalar, with few
- * registers and a short stack, for devices whose lanes are the work-items. Both find the same hits, bit for
- * bit: boxes decide nothing (slab.h), and the triangle test is one text.
+ * Two walks of a ray over two formats of nodes (TRIAD_BVH4); packet.h has one of several rays. Over eight
+ * boxes every lane of the node test belongs to one ray: on a CPU that is where the vector units are, and
+ * drivers that vectorise across work-items run it with local size 1 (measured per device, see
+ * docs/performance.md). Over four everything is scalar, with few registers and a short stack, for devices
+ * whose lanes are the work-items. Both find the same hits, bit for bit: boxes decide nothing (slab.h), and
+ * the triangle test is one text.
  *
  * Any bits may stand in a ray (NaN, infinities, no direction): what it hits is then arbitrary, but nothing is
  * read beyond the arrays, and the walk ends. An empty child is never met (slab_intersect), a node is visited

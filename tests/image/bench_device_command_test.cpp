@@ -40,7 +40,7 @@ TEST(BenchDeviceCommand, measures_every_part_and_boards_join) {
     }
     EXPECT_EQ(parts, (std::set<std::string>{"check", "peak", "rays", "paths", "stage", "display", "error",
                                             "efficiency"}));
-    EXPECT_EQ(formats, (std::set<std::string>{"bvh4", "bvh8"}));
+    EXPECT_EQ(formats, (std::set<std::string>{"bvh4", "bvh8", "bvh8 packets"}));
     EXPECT_EQ(scenes.size(), 10u);
     EXPECT_TRUE(drivers.contains("mega") && drivers.contains("wave-stages"));
     for (const char* kernel : {"trace_paths", "wave_intersect_edges", "wave_scatter_paths"})

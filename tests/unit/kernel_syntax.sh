@@ -1,7 +1,7 @@
 #!/bin/sh
 # tests/unit/kernel_syntax.sh KERNELS-FOLDER
 # Every kernel file, headers alone too, through a strict compiler as OpenCL C 1.2 and as 3.0, with either format of nodes
-# where rays are traced, and programs with each option alone off: catches what one driver forgives and another refuses, and
+# and in packets where rays are traced, and programs with each option alone off: catches what one driver forgives and another refuses, and
 # headers that lean on what happens to be included before them. And no vector of three: Intel's runtime (2026.2.0) gets those
 # wrong that a function is called with (docs/testing.md).
 set -u
@@ -25,11 +25,12 @@ for file in ${files}; do
         echo "-cl-std=CL1.2 -DTRIAD_BVH4=$format $file"
         echo "-cl-std=CL3.0 -DTRIAD_BVH4=$format $file"
     done
+    case $file in ./traversal/* | ./path/*) echo "-cl-std=CL1.2 -DTRIAD_PACKETS=1 $file" ;; esac
     case $file in *.cl) # options that its text asks for
         text=$($clang -x cl --target=spir64-unknown-unknown -I . -M "$file" | tr -d '\\:' | tr ' ' '\n' | grep -v -e '^$' -e '\.o$' -e features.h)
         for option in $options; do
             # shellcheck disable=SC2086 # one word per file
-            grep -qw "$option" $text && echo "-cl-std=CL1.2 -Wno-unused-parameter -D$option=0 $file"
+            grep -qw "$option" $text && echo "-cl-std=CL1.2 -Wno-unused-parameter -DTRIAD_PACKETS=1 -D$option=0 $file"
         done ;;
     esac
 done >"$jobs"

@@ -6,11 +6,16 @@
 #include "fuzz/targets/target.h"
 #include "render/renderer.h"
 #include "session/prepare.h"
+#include "trace/node_format.h"
 
 using namespace triad;
 
 TRIAD_FUZZ_TARGET(render) {
-    static Device* const device = new Device(Device::open({.selector = "cpu"}));
+    static Device* const device = [] {
+        auto* const opened = new Device(Device::open({.selector = "cpu"}));
+        set_format(*opened, default_format(opened->info()));
+        return opened;
+    }();
     RenderRequest request;
     request.scene_path = fuzz::file_of(input).string();
     request.size = uvec2(4);
