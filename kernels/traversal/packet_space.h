@@ -67,7 +67,8 @@ TRIAD_FUNCTION void packet_bounds(PacketSpace* space, int axis, PacketFloat orig
     const float least = packet_least(inverse), greatest = packet_greatest(inverse);
     const float low = from_one_point ? origin.s0 : packet_least(origin);
     const float high = from_one_point ? origin.s0 : packet_greatest(origin);
-    const int backward = greatest<0.0f, forward = least> 0.0f;
+    const int backward = greatest < 0.0f;
+    const int forward = least > 0.0f;
     space->enters.inverse[axis] = forward ? least : backward ? greatest : 0.0f;
     space->enters.offset[axis] = forward ? -high * least : backward ? -low * greatest : 0.0f;
     space->enters.near_row[axis] = (uint)axis * 16u + (backward ? 8u : 0u);
