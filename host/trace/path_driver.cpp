@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "trace/node_format.h"
 #include "trace/program.h"
 #include "trace/wave_driver.h"
 
@@ -16,14 +15,11 @@ class Mega : public PathDriver {
     Mega(const DeviceScene& scene, const RenderSettings& settings, const Features& features)
         : device_(scene.device()),
           trace_paths_(
-              device_.build(program_of(settings, "mega"), options_of(features)).kernel("trace_paths")),
-          pixels_of_item_(walks_packets(device_) ? MEGA_BLOCK : 1) {}
+              device_.build(program_of(settings, "mega"), options_of(features)).kernel("trace_paths")) {}
 
     void trace(const Arguments& scene, const dev::TracePathsArguments& work) override {
-        // Groups have as many pixels either way, so that small pictures have groups for many cores.
         device_.run(trace_paths_, Arguments(scene).add(arguments_of(work)),
-                    work.work_count * (FILM_TILE_PIXELS / pixels_of_item_),
-                    std::max<std::size_t>(device_.preferred_local() / pixels_of_item_, 1));
+                    work.work_count * std::size_t(FILM_TILE_PIXELS));
     }
     std::uint64_t bytes() const override { return 0; }
     std::size_t most_tiles() const override {
@@ -34,7 +30,6 @@ class Mega : public PathDriver {
   private:
     Device& device_;
     Kernel trace_paths_;
-    std::size_t pixels_of_item_;
 };
 
 }  // namespace

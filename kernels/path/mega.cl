@@ -1,6 +1,7 @@
-/* The path tracer as a megakernel: one work-item is one pixel, or, where the camera's rays are walked in
- * packets, MEGA_BLOCK of them, and loops over the samples of the launch. Unidirectional paths with next-event
- * estimation, multiple importance sampling and Russian roulette. */
+/* The path tracer as a megakernel: one work-item is one pixel, and loops over the samples of the launch.
+ * Where the camera's rays are walked in packets, one of MEGA_BLOCK work-items has the pixels of all, and the
+ * others nothing: groups are of as many pixels either way. Unidirectional paths with next-event estimation,
+ * multiple importance sampling and Russian roulette. */
 #include "common/language.h"
 
 #include "path/add.h"
@@ -32,12 +33,11 @@ TRIAD_FUNCTION PixelSamples block_samples(const Frame* frame, global const TileW
 }
 
 TRIAD_FUNCTION_WHOLE void trace_item(SCENE_PARAMETERS PARAMETERS(TRACE_PATHS_LIST), size_t item) {
-    const uint blocks_of_tile = FILM_TILE_PIXELS / MEGA_BLOCK;
-    if (item >= (size_t)work_count * blocks_of_tile) return;
+    if (item >= (size_t)work_count * FILM_TILE_PIXELS || item % MEGA_BLOCK != 0u) return;
     const Scene scene = SCENE_FROM_PARAMETERS;
     const Frame local_frame = *frame;
-    work += first_work + item / blocks_of_tile;
-    const uint block = (uint)(item % blocks_of_tile);
+    work += first_work + item / FILM_TILE_PIXELS;
+    const uint block = (uint)(item % FILM_TILE_PIXELS) / MEGA_BLOCK;
     const ulong first_sample = ((ulong)first_sample_high << 32) | first_sample_low;
     const size_t pixel_sums = local_frame.bins[0] * local_frame.bins[1] * FILM_CHANNELS;
     Tally tally = tally_start();

@@ -77,7 +77,7 @@ typedef struct Frame {
 } Frame;
 TRIAD_SIZE(Frame, 352);
 
-/* Pixels of a tile that an item of path/mega.cl has, where camera rays are walked in packets. */
+/* Pixels of a tile that one item of path/mega.cl has, where camera rays are walked in packets. */
 #define MEGA_BLOCK 8
 
 /* What one tile of 8 x 8 pixels of the film is to be given: which samples, counted from the launch's first.
