@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "base/huge_pages.h"
 #include "base/memory_limit.h"
 
 namespace {
@@ -24,8 +25,10 @@ class BeyondLimit : public std::bad_alloc {
 
 void* counted(void* memory) {
     if (!memory) throw std::bad_alloc();
-    if (const std::size_t bytes = ::malloc_usable_size(memory); bytes >= large)
+    if (const std::size_t bytes = ::malloc_usable_size(memory); bytes >= large) {
         triad::count_memory(std::int64_t(bytes));
+        triad::prefer_huge_pages(memory, bytes);
+    }
     return memory;
 }
 

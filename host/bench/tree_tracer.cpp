@@ -1,6 +1,8 @@
 #include "bench/tree_tracer.h"
 
 #include <chrono>
+#include <memory>
+#include <span>
 
 #include "trace/node_format.h"
 
@@ -13,13 +15,13 @@ TreeTracer::TreeTracer(Device& device, const RayScene& scene) : device_(device) 
             {{scene.mesh.positions[t.x], scene.mesh.positions[t.y], scene.mesh.positions[t.z]},
              std::uint32_t(triangles.size()),
              true});
-    BvhPool pool;
+    const auto pool = std::make_shared<BvhPool>();
     const auto start = std::chrono::steady_clock::now();
-    pool.formats = {format_of(device)};
-    root_ = build_bvh(triangles, {}, scene.reach, pool)[std::size_t(format_of(device))];
+    pool->formats = {format_of(device)};
+    root_ = build_bvh(triangles, {}, scene.reach, *pool)[std::size_t(format_of(device))];
     build_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    nodes_ = nodes_on(device_, pool);
-    blocks_ = device_.upload(pool.blocks);
+    nodes_ = nodes_on(device_, *pool, pool);
+    blocks_ = device_.share(std::span<const dev::TriangleBlock>(pool->blocks), pool);
     const Program program = device_.build("traversal/intersect.cl", {{"TRIAD_INSTANCES", "0"}});
     closest_ = program.kernel("intersect_closest");
     occluded_ = program.kernel("intersect_occluded");

@@ -1,0 +1,50 @@
+// Large pieces of memory, which the system is asked to back by pages of megabytes.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/aligned_vector.h"
+
+using namespace triad;
+
+namespace {
+
+constexpr std::size_t megabyte = 1 << 20;
+
+/// The line "VmFlags:" of the mapping that holds an address (proc_pid_smaps(5)).
+std::string flags_of(const void* address) {
+    std::ifstream maps("/proc/self/smaps");
+    const auto wanted = reinterpret_cast<std::uintptr_t>(address);
+    bool is_there = false;
+    for (std::string line; std::getline(maps, line);) {
+        std::uintptr_t begin = 0, end = 0;
+        char dash = 0;
+        if (std::istringstream range(line); range >> std::hex >> begin >> dash >> end && dash == '-')
+            is_there = begin <= wanted && wanted < end;
+        if (is_there && line.starts_with("VmFlags:")) return line + " ";
+    }
+    return "";
+}
+
+bool asked_for(const void* begin, std::size_t bytes) {
+    return flags_of(static_cast<const char*>(begin) + bytes / 2).find(" hg ") != std::string::npos;
+}
+
+}  // namespace
+
+TEST(HugePages, are_asked_for_where_a_piece_is_large) {
+    if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage"))
+        GTEST_SKIP() << "This system has no huge pages to ask for.";
+    const std::vector<char> plain(16 * megabyte);
+    if (flags_of(plain.data()).empty()) GTEST_SKIP() << "This system does not say what was asked for.";
+    EXPECT_TRUE(asked_for(plain.data(), plain.size()));
+    const AlignedVector<char> aligned(16 * megabyte);
+    EXPECT_TRUE(asked_for(aligned.data(), aligned.size()));
+    const std::vector<char> small(3 * megabyte);
+    EXPECT_FALSE(asked_for(small.data(), small.size()));
+}
