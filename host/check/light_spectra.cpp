@@ -9,7 +9,7 @@
 namespace triad {
 namespace {
 
-const char* const source = R"(#include "common/spectrum.h"
+const char* const spectra_source = R"(#include "common/spectrum.h"
 /* Of evenly spread numbers: what light of spectrum `which` adds to a path (or, by_light, to a photon), and at which wavelength. */
 __kernel void draw_light(__global Vec4* out, __global const Spectrum* spectrum, uint which, uint by_light, uint count) {
     const uint i = get_global_id(0);
@@ -65,7 +65,7 @@ void spectra_of_lights(Check& check) {
     for (std::uint32_t which = 0; which <= std::size(lights); ++which)
         for (const std::uint32_t by_light : {0u, 1u}) {
             const auto drawn =
-                run_kernel<std::array<float, 4>>(check.device, source, "draw_light",
+                run_kernel<std::array<float, 4>>(check.device, spectra_source, "draw_light",
                                                  Arguments().add(spectrum).add(which).add(by_light), count);
             dvec3 sum(0.0);
             double aside = 0;

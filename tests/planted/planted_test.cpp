@@ -69,6 +69,39 @@ TEST_P(Planted, is_caught_and_only_then) {
 INSTANTIATE_TEST_SUITE_P(Faults, Planted, testing::ValuesIn(faults),
                          [](const auto& info) { return std::string(info.param.name); });
 
+TEST(FirstPicture, of_a_device_that_errs_is_written_by_force_alone) {
+    const FaultyKernels kernels("traversal/triangle.h", "(TRIANGLE_LOAD(lane, block->primitive) != skip)",
+                                "(t > 1e-4f)");
+    ASSERT_TRUE(kernels.found_once);
+    const fs::path folder = fs::temp_directory_path() / ("triad-first-" + std::to_string(::getpid()));
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const auto render = [&](const std::string& more) {
+        const std::string command = "cd " + folder.string() + " && XDG_CACHE_HOME=$PWD/cache " +
+                                    TRIAD_PROGRAM + " render --size 16x16 --spp 1 --kernels " +
+                                    kernels.folder.string() + " -o a.png --film a.film --json a.json " +
+                                    more + " > said 2>&1";
+        const int status = std::system(command.c_str());
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    const auto none_is_there = [&] {
+        for (const char* name : {"a.png", "a.film", "a.json"})
+            EXPECT_FALSE(fs::exists(folder / name)) << name;
+    };
+    // Checked beside the picture, and known from then on.
+    for (const char* beginning : {"First use of ", "triad: "}) {
+        EXPECT_EQ(render(""), 5);
+        const std::string said = text_of(folder / "said");
+        EXPECT_EQ(said.find(beginning), 0u) << said;
+        EXPECT_NE(said.find("computes wrong answers: C3"), std::string::npos) << said;
+        none_is_there();
+    }
+    EXPECT_EQ(render("--force"), 0);
+    EXPECT_NE(text_of(folder / "said").find("The picture may be wrong"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "a.png"));
+    fs::remove_all(folder);
+}
+
 /// What the simulator says about a case; empty: nothing. `format`: of nodes.
 std::string oclgrind(const std::string& options, const fs::path& kernels, const std::string& id,
                      const std::string& format = "bvh8") {
