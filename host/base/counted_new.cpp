@@ -1,4 +1,5 @@
-// The `new` and `delete` of programs: large pieces count, and are refused beyond the limit on memory.
+// The `new` and `delete` of programs: large pieces count, are refused beyond the limit on memory, and ask for
+// huge pages.
 #include <malloc.h>
 
 #include <cstdlib>

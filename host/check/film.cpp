@@ -7,7 +7,7 @@
 namespace triad {
 namespace {
 
-const char* const film_source = R"(#include "common/film.h"
+const char* const film_sums_source = R"(#include "common/film.h"
 TRIAD_FUNCTION float value_of(uint i) { return 0.7f + convert_float(i % 1000u) * 0.001f; }
 /* Each item adds `each` of the known values. */
 __kernel void accumulate(__global long* out, uint each, uint count) {
@@ -40,8 +40,8 @@ void accumulation(Check& check) {
     const std::size_t total = check.count(100'000'000, 1'000'000), items = check.count(1 << 16);
     const auto each = std::uint32_t(total / items);
     const auto sums =
-        run_kernel<std::int64_t>(check.device, film_source, "accumulate", Arguments().add(each), items);
-    const auto values = run_kernel<float>(check.device, film_source, "values", {}, 1000);
+        run_kernel<std::int64_t>(check.device, film_sums_source, "accumulate", Arguments().add(each), items);
+    const auto values = run_kernel<float>(check.device, film_sums_source, "values", {}, 1000);
     double period = 0, expected = 0;
     for (float v : values) period += v;
     const std::uint64_t n = std::uint64_t(each) * items;
@@ -67,7 +67,7 @@ void fixed_point(Check& check) {
                                              -(std::int64_t(1) << 62),
                                              std::int64_t(1) << 62};
     const auto rows = run_kernel<std::array<std::int32_t, 4>>(
-        check.device, film_source, "fix", Arguments().add(check.device.upload(x)), x.size());
+        check.device, film_sums_source, "fix", Arguments().add(check.device.upload(x)), x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
         const std::int64_t q = std::int64_t(rows[i][0]) * (std::int64_t(1) << 32) + std::uint32_t(rows[i][1]);
         check.equal(q, expected[i], "fixed point of ", x[i]);
@@ -81,7 +81,7 @@ void counters(Check& check) {
     const std::uint32_t each = check.level == CheckLevel::tiny ? 4 : 512;
     Device& device = check.device;
     const Buffer counters = device.upload(std::vector<std::uint32_t>(2 * COUNTERS));
-    run_kernel<std::uint32_t>(device, film_source, "tally", Arguments().add(counters).add(each), items);
+    run_kernel<std::uint32_t>(device, film_sums_source, "tally", Arguments().add(counters).add(each), items);
     const auto words = device.download<std::uint32_t>(counters);
     check.equal(words[2] | std::uint64_t(words[3]) << 32, std::uint64_t(items) * each * 0x00300001u, "total");
     check.equal(words[0] + words[1] + words[4] + words[5], 0u, "a neighbouring counter");

@@ -23,7 +23,7 @@ struct CheckOptions {
     std::optional<BvhFormat> format;
     std::optional<PathDriverKind> path_driver;
     CheckLevel level = CheckLevel::standard;
-    bool first = false, list = false;
+    bool list = false;
 };
 
 /// Every id that --case takes. Asks no device.
@@ -65,10 +65,10 @@ Exit run(const CheckOptions& o) {
         std::printf("nodes: %s, paths by: %s\n", name_of(format), name_of(path_driver));
         std::printf("%-62s %10s %10s\n", "case", "value", "bound");
     }
-    const std::vector<CheckCase> cases = o.first ? first_cases() : cases_of(o.level, o.only);
-    std::vector<CheckResult> results = run_cases(device, cases, o.level, [&](const CheckResult& r) {
-        if (lines) print(r);
-    });
+    std::vector<CheckResult> results =
+        run_cases(device, cases_of(o.level, o.only), o.level, [&](const CheckResult& r) {
+            if (lines) print(r);
+        });
     Json rows = Json::array();
     std::size_t wrong = 0, absent = 0;
     for (const CheckResult& r : results) {
@@ -113,10 +113,6 @@ void add_check(CLI::App& app, Exit& exit) {
         levels.push_back(level);
     };
     at("--quick", CheckLevel::quick, "About 10 s instead of a minute");
-    levels.push_back(command->add_flag_callback(
-        "--first", [o] { o->first = true, o->level = CheckLevel::quick; },
-        "Those that a new device answers beside its first picture"));
-    levels.back()->excludes(levels.front());
     at("--full", CheckLevel::full, "Every case with all its work");
     at("--tiny", CheckLevel::tiny, "The quick cases with a thousandth of the work: for simulators");
     command->add_option("--case", o->only, "Only the cases of these ids, like C1 or D4; --list prints them")

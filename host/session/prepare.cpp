@@ -11,12 +11,10 @@
 #include "base/check_outputs.h"
 #include "base/log.h"
 #include "base/spans.h"
-#include "check/check_beside.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "scene/strokes.h"
 #include "session/choose_view.h"
-#include "trace/node_format.h"
 #include "trace/path_driver.h"
 #include "trace/tune.h"
 
@@ -160,7 +158,7 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 
 namespace {
 
-Device opened(const RenderRequest& o, Device::Settings settings, FirstCheck when) {
+Device opened(const RenderRequest& o, Device::Settings settings) {
     const Span span("open the device", "device");
     settings.profile = o.profile;
     Device device = Device::open(settings);
@@ -168,10 +166,7 @@ Device opened(const RenderRequest& o, Device::Settings settings, FirstCheck when
     if (o.format) wishes["format"] = name_of(*o.format);
     if (o.path_driver) wishes["path_driver"] = name_of(*o.path_driver);
     const Tuning tuning = ensure_tuned(device, wishes);
-    const bool has_verdict =
-        load_verdict(device.info(), format_of(device), path_driver_of(device)).has_value();
-    if (has_verdict || when == FirstCheck::before || !can_check_beside(device))
-        require_right(ensure_checked(device), device.info(), o.force);
+    require_right(ensure_checked(device), device.info(), o.force);
     detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning));
     return device;
 }
@@ -235,9 +230,7 @@ std::vector<Device::Settings> named_devices(const std::string& text, unsigned th
 
 }  // namespace
 
-Device open_device(const RenderRequest& o) {
-    return opened(o, {.selector = o.device, .threads = o.threads}, FirstCheck::before);
-}
+Device open_device(const RenderRequest& o) { return opened(o, {.selector = o.device, .threads = o.threads}); }
 
 std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>& devices) {
     std::map<std::string, std::vector<std::size_t>> groups;
@@ -248,14 +241,13 @@ std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>&
     return hardware;
 }
 
-std::vector<Device> open_devices(const RenderRequest& o, FirstCheck when) {
+std::vector<Device> open_devices(const RenderRequest& o) {
     const std::vector<Device::Settings> wanted = named_devices(o.device, o.threads);
-    if (wanted.size() > 1 || wanted.front().parts > 1) when = FirstCheck::before;
     std::vector<Device> devices;
     std::exception_ptr failed;
     for (const Device::Settings& settings : wanted) {
         try {
-            devices.push_back(opened(o, settings, when));
+            devices.push_back(opened(o, settings));
         } catch (const Error& error) {
             if (wanted.size() == 1 || error.exit() == Exit::usage) throw;
             failed = std::current_exception();

@@ -16,7 +16,6 @@
 #include "base/parallel_for.h"
 #include "base/spans.h"
 #include "base/text.h"
-#include "check/verdict.h"
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
 #include "io/io.h"
@@ -61,20 +60,9 @@ std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
 
 OpenDevices opened(const RenderRequest& request, OpenDevices* kept) {
     if (kept && *kept) return *kept;
-    OpenDevices devices = std::make_shared<std::vector<Device>>(
-        open_devices(request, request.profile ? FirstCheck::before : FirstCheck::beside));
+    OpenDevices devices = std::make_shared<std::vector<Device>>(open_devices(request));
     if (kept) *kept = devices;
     return devices;
-}
-
-/// Of a device that was handed out without a verdict. Devices that are kept may be such from a render before,
-/// which ended before it wrote anything.
-std::optional<CheckBeside> check_of(const std::vector<Device>& devices, const RenderRequest& request) {
-    if (devices.size() > 1 || !can_check_beside(devices.front())) return {};
-    const Device& device = devices.front();
-    if (load_verdict(device.info(), format_of(device), path_driver_of(device))) return {};
-    return std::optional<CheckBeside>(std::in_place, device, request.device, request.threads,
-                                      request.kernels_path);
 }
 
 std::vector<Device*> pointers(std::vector<Device>& devices) {
@@ -178,7 +166,6 @@ RenderSession::RenderSession(RenderRequest request, std::optional<LoadedScene> l
       loaded_(timed_scene(request_, std::move(loaded), load_seconds_)),
       settings_(settings_of(request_, scene())),
       devices_(opened(request_, kept)),
-      check_(check_of(*devices_, request_)),
       renderer_(std::make_unique<Renderer>(pointers(*devices_), scene(), settings_)),
       goal_(request_.goal()) {
     if (!request_.film_path.empty())
@@ -223,16 +210,8 @@ void RenderSession::resume() {
             missing_->push_back({std::max(hole.begin, goal_.samples.begin), hole.end});
 }
 
-void RenderSession::prove() {
-    if (!check_) return;
-    check_->wait();
-    check_.reset();
-    require_right(ensure_checked(devices_->front()), device().info(), request_.force);
-}
-
 /// The film as it was stays where it cannot be written, which is no reason to stop.
 void RenderSession::keep(const Film& film) {
-    prove();
     try {
         save_film(request_.film_path, film);
     } catch (const Error& error) {
@@ -256,13 +235,8 @@ RenderResult RenderSession::fill_holes(const std::function<bool(const Progress&)
 }
 
 RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& report) {
-    const auto proving_report = [&](const Progress& progress) {
-        if (check_ && check_->has_ended()) prove();
-        return report(progress);
-    };
     RenderOutcome outcome;
-    outcome.result = missing_ ? fill_holes(proving_report) : renderer_->render_until(goal_, proving_report);
-    prove();
+    outcome.result = missing_ ? fill_holes(report) : renderer_->render_until(goal_, report);
     outcome.film = renderer_->film();
     if (request_.style.denoise != Denoiser::off) add_guides(*renderer_, outcome.film);
     outcome.numbers = outcome.film.sample_numbers();

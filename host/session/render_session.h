@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/file_lock.h"
-#include "check/check_beside.h"
 #include "device/device.h"
 #include "render/renderer.h"
 #include "session/metadata.h"
@@ -37,10 +36,6 @@ class RenderSession {
     explicit RenderSession(RenderRequest request, OpenDevices* kept = nullptr);
     /// The same of a scene that was read before.
     RenderSession(RenderRequest request, LoadedScene loaded, OpenDevices* kept = nullptr);
-
-    /// Waits for the check of a device that is new here, and throws Error(device) where it computes wrong
-    /// answers (--force: warns). render() and keeping a film do so before they hand out anything.
-    void prove();
 
     /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
     /// film that the request names is written meanwhile (docs/film.md).
@@ -73,7 +68,6 @@ class RenderSession {
     LoadedScene loaded_;
     RenderSettings settings_;
     OpenDevices devices_;
-    std::optional<CheckBeside> check_;  ///< of a device without a verdict, until it is proved
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
     std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes

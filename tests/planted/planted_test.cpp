@@ -88,7 +88,7 @@ TEST(FirstPicture, of_a_device_that_errs_is_written_by_force_alone) {
         for (const char* name : {"a.png", "a.film", "a.json"})
             EXPECT_FALSE(fs::exists(folder / name)) << name;
     };
-    // Checked beside the picture, and known from then on.
+    // Checked at its first use, and known from then on.
     for (const char* beginning : {"First use of ", "triad: "}) {
         EXPECT_EQ(render(""), 5);
         const std::string said = text_of(folder / "said");
