@@ -4,9 +4,8 @@
 namespace triad {
 
 /// Asks the system to back a large piece of memory, of which nothing has been touched (a mapping of its own:
-/// keep_no_large_pieces()), by pages of megabytes: it is there sooner, and walks through
-/// large trees wait less for addresses to be translated. Small pieces and systems without such pages: nothing
-/// happens.
+/// keep_no_large_pieces()), by pages of megabytes, which are there sooner. Small pieces and systems without
+/// such pages: nothing happens.
 void prefer_huge_pages(void* memory, std::size_t bytes);
 
 }  // namespace triad
