@@ -1,5 +1,6 @@
 // Large pieces of memory, which the system is asked to back by pages of megabytes.
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include "base/aligned_vector.h"
 #include "base/freed_memory.h"
+#include "base/huge_pages.h"
 
 using namespace triad;
 
@@ -47,6 +49,10 @@ TEST(HugePages, are_asked_for_where_a_piece_is_large) {
     EXPECT_TRUE(asked_for(plain.data(), plain.size()));
     const AlignedVector<char> aligned(16 * megabyte);
     EXPECT_TRUE(asked_for(aligned.data(), aligned.size()));
-    const std::vector<char> small(3 * megabyte);
-    EXPECT_FALSE(asked_for(small.data(), small.size()));
+    // Of the system itself, since a small piece may lie where a large one was before.
+    void* small = ::mmap(nullptr, 3 * megabyte, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(small, MAP_FAILED);
+    prefer_huge_pages(small, 3 * megabyte);
+    EXPECT_FALSE(asked_for(small, 3 * megabyte));
+    ::munmap(small, 3 * megabyte);
 }
