@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
 
 }  // namespace
 
-extern "C" [[noreturn]] void abort() noexcept { end_by_abort(); }
+extern "C" void abort() noexcept { end_by_abort(); }
 
 int main(int argc, char** argv) {
     libraries_have_started();
