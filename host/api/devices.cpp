@@ -75,8 +75,9 @@ std::vector<CheckResult> check(const std::string& selector, const std::string& l
             all.push_back(shown(results.back()));
             if (report && !callback([&] { return report(all.back()); })) return all;
         }
-        if (ids.empty())
-            keep_verdict(device.info(), format_of(device), verdict_of(results), path_driver_of(device));
+        const std::optional<Verdict> verdict = verdict_of(results);
+        if (ids.empty() && verdict)
+            keep_verdict(device.info(), format_of(device), *verdict, path_driver_of(device));
         return all;
     });
     callback.rethrow();

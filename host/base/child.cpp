@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +10,8 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <string>
 #include <string_view>
 #include <thread>
 
@@ -16,6 +19,8 @@ extern char** environ;
 
 namespace triad {
 namespace {
+
+constexpr const char* parent_variable = "TRIAD_PARENT";
 
 /// `environ` with these changes, as "NAME=VALUE".
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& changes) {
@@ -36,6 +41,9 @@ std::vector<char*> pointers(const std::vector<std::string>& texts) {
     return list;
 }
 
+/// A group of its own can be killed whole.
+bool has_own_group(const Child& child) { return child.own_group || child.seconds > 0; }
+
 std::optional<pid_t> start(const Child& child) {
     const std::vector<std::string> environment = environment_with(child.environment);
     posix_spawn_file_actions_t files;
@@ -45,8 +53,7 @@ std::optional<pid_t> start(const Child& child) {
     ::posix_spawn_file_actions_addopen(&files, 2, child.errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawnattr_t attributes;
     ::posix_spawnattr_init(&attributes);
-    // A group of its own can be killed whole, but a terminal's Ctrl-C does not reach it.
-    if (child.seconds > 0) ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    if (has_own_group(child)) ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t process = 0;
     const int error = ::posix_spawnp(&process, child.arguments.front().c_str(), &files, &attributes,
                                      pointers(child.arguments).data(), pointers(environment).data());
@@ -57,28 +64,55 @@ std::optional<pid_t> start(const Child& child) {
 
 }  // namespace
 
-std::optional<ChildEnd> run_child(const Child& child) {
+RunningChild::RunningChild(const Child& child) : process_(start(child)), has_group_(has_own_group(child)) {
     using Clock = std::chrono::steady_clock;
-    const std::optional<pid_t> process = start(child);
-    if (!process) return std::nullopt;
-    const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(child.seconds));
-    ChildEnd result;
+    latest_ = child.seconds > 0 ? Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                     std::chrono::duration<double>(child.seconds))
+                                : Clock::time_point::max();
+    if (process_) end_.emplace();
+}
+
+RunningChild::~RunningChild() {
+    if (has_ended()) return;
+    kill_group();
+    wait();
+}
+
+void RunningChild::kill_group() { ::kill(has_group_ ? -*process_ : *process_, SIGKILL); }
+
+bool RunningChild::has_ended() {
+    if (!process_) return true;
     int status = 0;
-    for (auto pause = std::chrono::milliseconds(1);;) {
-        const pid_t done = ::waitpid(*process, &status, child.seconds > 0 ? WNOHANG : 0);
-        if (done == *process) break;
-        if (done < 0 && errno != EINTR) return std::nullopt;
-        if (done == 0 && !result.late && Clock::now() >= end) {
-            result.late = true;
-            ::kill(-*process, SIGKILL);
-        }
-        if (done == 0) std::this_thread::sleep_for(pause);
-        pause = std::min(pause * 2, std::chrono::milliseconds(20));
+    const pid_t done = ::waitpid(*process_, &status, WNOHANG);
+    if (done == 0 || (done < 0 && errno == EINTR)) {
+        if (!end_->late && std::chrono::steady_clock::now() >= latest_) end_->late = true, kill_group();
+        return false;
     }
-    if (WIFEXITED(status)) result.exit = WEXITSTATUS(status);
-    if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
-    return result;
+    process_.reset();
+    if (done < 0) end_.reset();
+    if (done > 0 && WIFEXITED(status)) end_->exit = WEXITSTATUS(status);
+    if (done > 0 && WIFSIGNALED(status)) end_->signal = WTERMSIG(status);
+    return true;
+}
+
+std::optional<ChildEnd> RunningChild::wait() {
+    for (auto pause = std::chrono::milliseconds(1); !has_ended();
+         pause = std::min(pause * 2, std::chrono::milliseconds(20)))
+        std::this_thread::sleep_for(pause);
+    return end_;
+}
+
+std::optional<ChildEnd> run_child(const Child& child) { return RunningChild(child).wait(); }
+
+std::map<std::string, std::string> bound_to_this_process() {
+    return {{parent_variable, std::to_string(::getpid())}};
+}
+
+void end_with_parent() {
+    const char* parent = std::getenv(parent_variable);
+    if (!parent) return;
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (std::to_string(::getppid()) != parent) std::_Exit(1);  // it has ended before
 }
 
 }  // namespace triad

@@ -108,6 +108,7 @@ CheckResult run_case(Device& device, const CheckCase& each, CheckLevel level) {
         } catch (const Error& error) {
             result.ok = false;
             result.failures = {error.what()};
+            result.lacked_memory = error.exit() == Exit::memory;
         }
         result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     } else {

@@ -38,6 +38,7 @@ struct CheckResult {
     std::optional<bool> ok;             ///< none: not applicable
     std::string what;                   ///< what the value measures, where that needs saying
     std::vector<std::string> failures;  ///< a sentence each; the first few
+    bool lacked_memory = false;         ///< then ok is false, and says nothing about the device
     double seconds = 0;
 };
 

@@ -120,19 +120,22 @@ void tiny_far_light(Check& check) {
     check.near(mean * 1e24, 1, 1e-4, "irradiance over 1e-24");
 }
 
-void heuristic_at_its_ends(Check& check) {
+void heuristics_at_their_ends(Check& check) {
     const char* const text = R"(#include "shading/light.h"
 __kernel void weigh(__global float* out, __global const float* ratio, uint count) {
     const uint i = get_global_id(0);
-    if (i < count) out[i] = power_heuristic(ratio[i]);
+    if (i < count) out[2u * i] = power_heuristic(ratio[i]), out[2u * i + 1u] = map_heuristic(ratio[i]);
 }
 )";
+    using Weights = std::array<float, 2>;  // of lights, of maps
     const std::vector<float> ratios{0.0f, 1.0f, 3.0f, 1e24f, 3e38f, INFINITY, 1e-30f};
-    const std::vector<float> expected{1.0f, 0.5f, 0.1f, 0.0f, 0.0f, 0.0f, 1.0f};
-    const auto w = run_kernel<float>(check.device, text, "weigh",
-                                     Arguments().add(check.device.upload(ratios)), ratios.size());
+    const std::vector<Weights> expected{{1.0f, 1.0f}, {0.5f, 0.5f}, {0.1f, 0.1613905f}, {0.0f, 0.0f},
+                                        {0.0f, 0.0f}, {0.0f, 0.0f}, {1.0f, 1.0f}};
+    const auto w = run_kernel<Weights>(check.device, text, "weigh",
+                                       Arguments().add(check.device.upload(ratios)), ratios.size());
     for (std::size_t i = 0; i < w.size(); ++i)
-        check.near(w[i], expected[i], 1e-7, "weight at ratio ", ratios[i]);
+        for (const int map : {0, 1})
+            check.near(w[i][map], expected[i][map], 1e-7, map ? "map" : "light", " at ratio ", ratios[i]);
 }
 
 }  // namespace
@@ -142,7 +145,7 @@ void add_lights(std::vector<CheckCase>& cases) {
     cases.insert(cases.end(),
                  {
                      {"C15", "tiny far light", quick, tiny_far_light},
-                     {"C15b", "power heuristic at its ends", quick, heuristic_at_its_ends},
+                     {"C15b", "weights of two samplings at their ends", quick, heuristics_at_their_ends},
                      {"C16e", "samples of the environment and their density", quick, environment_samples},
                      {"C16f", "the environment from any bits", quick, any_direction},
                  });

@@ -63,10 +63,14 @@ void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& ver
     }
 }
 
-Verdict verdict_of(const std::vector<CheckResult>& results) {
+std::optional<Verdict> verdict_of(const std::vector<CheckResult>& results) {
     Verdict verdict;
-    for (const CheckResult& r : results)
-        if (r.ok == false) verdict.wrong.push_back(r.name);
+    bool lacked_memory = false;
+    for (const CheckResult& r : results) {
+        lacked_memory |= r.lacked_memory;
+        if (r.ok == false && !r.lacked_memory) verdict.wrong.push_back(r.name);
+    }
+    if (lacked_memory && verdict.wrong.empty()) return {};
     return verdict;
 }
 
@@ -76,10 +80,13 @@ Verdict ensure_checked(Device& device) {
     inform("First use of " + device.info().name +
            " with this driver: a few seconds to check that its answers are right.");
     const WithoutDetails quiet;
-    const Verdict verdict =
+    const std::optional<Verdict> verdict =
         verdict_of(run_cases(device, first_cases(), CheckLevel::quick, [](const CheckResult&) {}));
-    keep_verdict(device.info(), format, verdict, path_driver_of(device));
-    return verdict;
+    if (!verdict)
+        throw Error(Exit::memory,
+                    device.info().name + " has too little memory to check that its answers are right.");
+    keep_verdict(device.info(), format, *verdict, path_driver_of(device));
+    return *verdict;
 }
 
 void require_right(const Verdict& verdict, const DeviceInfo& device, bool force) {

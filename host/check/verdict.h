@@ -23,13 +23,14 @@ std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format,
 void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict,
                   PathDriverKind driver = PathDriverKind::mega);
 
-Verdict verdict_of(const std::vector<CheckResult>& results);
+/// None where nothing is wrong but a case lacked memory, which says nothing about the device.
+std::optional<Verdict> verdict_of(const std::vector<CheckResult>& results);
 
 /// Of the quick cases those that each see something else: a few seconds with compilation.
 std::vector<CheckCase> first_cases();
 
 /// Before a device is used: the kept verdict, or that of the first cases, a few seconds' worth, which says
-/// so.
+/// so. Throws Error(memory) where there is too little to check it.
 Verdict ensure_checked(Device& device);
 
 /// Throws Error(device) that names the wrong cases, if there are any; with `force` it is a warning.

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/check_outputs.h"
+#include "base/child.h"
 #include "base/log.h"
 #include "check/check.h"
 #include "check/verdict.h"
@@ -23,7 +24,7 @@ struct CheckOptions {
     std::optional<BvhFormat> format;
     std::optional<PathDriverKind> path_driver;
     CheckLevel level = CheckLevel::standard;
-    bool list = false;
+    bool first = false, list = false;
 };
 
 /// Every id that --case takes. Asks no device.
@@ -43,6 +44,7 @@ void print(const CheckResult& r) {
 }
 
 Exit run(const CheckOptions& o) {
+    if (o.first) end_with_parent();
     check_outputs({o.json}, {o.kernels});
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
@@ -65,10 +67,10 @@ Exit run(const CheckOptions& o) {
         std::printf("nodes: %s, paths by: %s\n", name_of(format), name_of(path_driver));
         std::printf("%-62s %10s %10s\n", "case", "value", "bound");
     }
-    std::vector<CheckResult> results =
-        run_cases(device, cases_of(o.level, o.only), o.level, [&](const CheckResult& r) {
-            if (lines) print(r);
-        });
+    const std::vector<CheckCase> cases = o.first ? first_cases() : cases_of(o.level, o.only);
+    std::vector<CheckResult> results = run_cases(device, cases, o.level, [&](const CheckResult& r) {
+        if (lines) print(r);
+    });
     Json rows = Json::array();
     std::size_t wrong = 0, absent = 0;
     for (const CheckResult& r : results) {
@@ -84,14 +86,16 @@ Exit run(const CheckOptions& o) {
                         {"seconds", r.seconds}});
     }
     if (!o.json.empty()) write_report(o.json, "check", &device.info(), rows);
-    if (o.only.empty() && o.level != CheckLevel::tiny)
-        keep_verdict(device.info(), format, verdict_of(results), path_driver);
+    const std::optional<Verdict> verdict = verdict_of(results);
+    if (o.only.empty() && o.level != CheckLevel::tiny && verdict)
+        keep_verdict(device.info(), format, *verdict, path_driver);
     const std::string counts = std::to_string(results.size() - wrong - absent) + " right, " +
                                std::to_string(wrong) + " wrong, " + std::to_string(absent) +
                                " not applicable";
     if (wrong > 0)
-        throw Error(Exit::device, device.info().name + " with driver " + device.info().driver +
-                                      " is wrong: " + counts + ".");
+        throw Error(verdict ? Exit::device : Exit::memory,
+                    device.info().name + " with driver " + device.info().driver +
+                        (verdict ? " is wrong: " : " has too little memory for some cases: ") + counts + ".");
     if (lines) std::printf("%s\n", counts.c_str());
     return Exit::done;
 }
@@ -115,9 +119,14 @@ void add_check(CLI::App& app, Exit& exit) {
     at("--quick", CheckLevel::quick, "About 10 s instead of a minute");
     at("--full", CheckLevel::full, "Every case with all its work");
     at("--tiny", CheckLevel::tiny, "The quick cases with a thousandth of the work: for simulators");
+    levels.push_back(command->add_flag_callback(
+        "--first", [o] { o->first = true, o->level = CheckLevel::quick; },
+        "Those of the quick cases that a new device answers for its first picture"));
+    for (std::size_t i = 0; i + 1 < levels.size(); ++i) levels.back()->excludes(levels[i]);
     command->add_option("--case", o->only, "Only the cases of these ids, like C1 or D4; --list prints them")
         ->delimiter(',')
-        ->type_name("ID[,...]");
+        ->type_name("ID[,...]")
+        ->excludes(levels.back());
     command->add_flag("--list", o->list, "Print the cases, each with what it asks, and end");
     add_json(*command, o->json);
     add_kernels(*command, o->kernels);

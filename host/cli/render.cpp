@@ -27,6 +27,7 @@ void tell_pixel(RenderSession& session) {
     constexpr std::size_t largest = 5;
     const auto [x, y] = *session.request().pixel;
     const std::string& path = session.request().json_path;
+    session.prove();
     const PixelReport report = report_pixel(session.renderer(), 0, 0, session.goal().samples, largest);
     const std::vector<std::string>& sources = session.renderer().packed().light_sources;
     if (path != "-") std::fputs(table_text(report, session.scene(), sources, x, y).c_str(), stdout);

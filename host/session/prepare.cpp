@@ -11,6 +11,7 @@
 #include "base/check_outputs.h"
 #include "base/log.h"
 #include "base/spans.h"
+#include "check/check_beside.h"
 #include "check/verdict.h"
 #include "scene/builtin_scene.h"
 #include "scene/strokes.h"
@@ -158,7 +159,7 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 
 namespace {
 
-Device opened(const RenderRequest& o, Device::Settings settings) {
+Device opened(const RenderRequest& o, Device::Settings settings, FirstCheck when) {
     const Span span("open the device", "device");
     settings.profile = o.profile;
     Device device = Device::open(settings);
@@ -166,7 +167,8 @@ Device opened(const RenderRequest& o, Device::Settings settings) {
     if (o.format) wishes["format"] = name_of(*o.format);
     if (o.path_driver) wishes["path_driver"] = name_of(*o.path_driver);
     const Tuning tuning = ensure_tuned(device, wishes);
-    require_right(ensure_checked(device), device.info(), o.force);
+    if (when == FirstCheck::before || !CheckBeside::is_due(device))
+        require_right(ensure_checked(device), device.info(), o.force);
     detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning));
     return device;
 }
@@ -230,7 +232,9 @@ std::vector<Device::Settings> named_devices(const std::string& text, unsigned th
 
 }  // namespace
 
-Device open_device(const RenderRequest& o) { return opened(o, {.selector = o.device, .threads = o.threads}); }
+Device open_device(const RenderRequest& o) {
+    return opened(o, {.selector = o.device, .threads = o.threads}, FirstCheck::before);
+}
 
 std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>& devices) {
     std::map<std::string, std::vector<std::size_t>> groups;
@@ -241,13 +245,14 @@ std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>&
     return hardware;
 }
 
-std::vector<Device> open_devices(const RenderRequest& o) {
+std::vector<Device> open_devices(const RenderRequest& o, FirstCheck when) {
     const std::vector<Device::Settings> wanted = named_devices(o.device, o.threads);
+    if (wanted.size() > 1 || wanted.front().parts > 1) when = FirstCheck::before;
     std::vector<Device> devices;
     std::exception_ptr failed;
     for (const Device::Settings& settings : wanted) {
         try {
-            devices.push_back(opened(o, settings));
+            devices.push_back(opened(o, settings, when));
         } catch (const Error& error) {
             if (wanted.size() == 1 || error.exit() == Exit::usage) throw;
             failed = std::current_exception();

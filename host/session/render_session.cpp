@@ -16,6 +16,7 @@
 #include "base/parallel_for.h"
 #include "base/spans.h"
 #include "base/text.h"
+#include "check/verdict.h"
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
 #include "io/io.h"
@@ -58,11 +59,14 @@ std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
     return lock;
 }
 
+/// What a check beside the picture would disturb: a number of threads, a time, a profile.
+FirstCheck first_check_of(const RenderRequest& o) {
+    return o.threads > 0 || o.goal().seconds > 0 || o.profile ? FirstCheck::before : FirstCheck::beside;
+}
+
 OpenDevices opened(const RenderRequest& request, OpenDevices* kept) {
     if (kept && *kept) return *kept;
-    OpenDevices devices = std::make_shared<std::vector<Device>>(open_devices(request));
-    if (kept) *kept = devices;
-    return devices;
+    return std::make_shared<std::vector<Device>>(open_devices(request, first_check_of(request)));
 }
 
 std::vector<Device*> pointers(std::vector<Device>& devices) {
@@ -166,6 +170,8 @@ RenderSession::RenderSession(RenderRequest request, std::optional<LoadedScene> l
       loaded_(timed_scene(request_, std::move(loaded), load_seconds_)),
       settings_(settings_of(request_, scene())),
       devices_(opened(request_, kept)),
+      kept_(kept),
+      check_(first_check()),
       renderer_(std::make_unique<Renderer>(pointers(*devices_), scene(), settings_)),
       goal_(request_.goal()) {
     if (!request_.film_path.empty())
@@ -210,8 +216,35 @@ void RenderSession::resume() {
             missing_->push_back({std::max(hole.begin, goal_.samples.begin), hole.end});
 }
 
-/// The film as it was stays where it cannot be written, which is no reason to stop.
+/// Where none is due, the devices have proved themselves, and are kept.
+std::optional<CheckBeside> RenderSession::first_check() {
+    if (first_check_of(request_) == FirstCheck::before || !CheckBeside::is_due(device())) {
+        if (kept_) *kept_ = devices_;
+        return {};
+    }
+    return std::optional<CheckBeside>(std::in_place, device(), request_.kernels_path);
+}
+
+void RenderSession::prove() {
+    if (!check_) return;
+    check_->wait();
+    require_right(ensure_checked(devices_->front()), device().info(), request_.force);
+    check_.reset();
+    if (kept_) *kept_ = devices_;
+}
+
+/// Does not wait, nor check: a verdict that is there is heeded.
+bool RenderSession::is_proved() {
+    if (check_ && check_->has_ended() &&
+        load_verdict(device().info(), format_of(device()), path_driver_of(device())))
+        prove();
+    return !check_;
+}
+
+/// The film as it was stays where it cannot be written, which is no reason to stop. Nothing is written of a
+/// device that has not proved itself.
 void RenderSession::keep(const Film& film) {
+    if (!is_proved()) return;
     try {
         save_film(request_.film_path, film);
     } catch (const Error& error) {
@@ -235,8 +268,13 @@ RenderResult RenderSession::fill_holes(const std::function<bool(const Progress&)
 }
 
 RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& report) {
+    const auto proving_report = [&](const Progress& progress) {
+        is_proved();
+        return report(progress);
+    };
     RenderOutcome outcome;
-    outcome.result = missing_ ? fill_holes(report) : renderer_->render_until(goal_, report);
+    outcome.result = missing_ ? fill_holes(proving_report) : renderer_->render_until(goal_, proving_report);
+    prove();
     outcome.film = renderer_->film();
     if (request_.style.denoise != Denoiser::off) add_guides(*renderer_, outcome.film);
     outcome.numbers = outcome.film.sample_numbers();

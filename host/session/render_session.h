@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/file_lock.h"
+#include "check/check_beside.h"
 #include "device/device.h"
 #include "render/renderer.h"
 #include "session/metadata.h"
@@ -32,10 +33,16 @@ class RenderSession {
   public:
     /// Completes the request, sees that its files can be written and no one else writes its film, loads the
     /// scene and the film to go on from, opens the device and makes all ready. `kept`: devices of an earlier
-    /// request for the same ones; those that are opened are kept there. Throws Error.
+    /// request for the same ones; those that are opened are kept there, as soon as they have proved
+    /// themselves. Throws Error.
     explicit RenderSession(RenderRequest request, OpenDevices* kept = nullptr);
     /// The same of a scene that was read before.
     RenderSession(RenderRequest request, LoadedScene loaded, OpenDevices* kept = nullptr);
+
+    /// Waits for the check of a device that is new here, and throws Error(device) where it computes wrong
+    /// answers
+    /// (--force: warns). What renders and hands out pictures or films does so before.
+    void prove();
 
     /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
     /// film that the request names is written meanwhile (docs/film.md).
@@ -68,11 +75,15 @@ class RenderSession {
     LoadedScene loaded_;
     RenderSettings settings_;
     OpenDevices devices_;
+    OpenDevices* kept_;                 ///< null: they are not
+    std::optional<CheckBeside> check_;  ///< of a device without a verdict, until it has one
     std::unique_ptr<Renderer> renderer_;
     RenderGoal goal_;
     std::optional<std::vector<SampleRange>> missing_;  ///< of the goal's samples, where the film has holes
 
     RenderSession(RenderRequest request, std::optional<LoadedScene> loaded, OpenDevices* kept);
+    std::optional<CheckBeside> first_check();
+    bool is_proved();
     void resume();
     void keep(const Film& film);
     RenderResult fill_holes(const std::function<bool(const Progress&)>& report);

@@ -121,7 +121,7 @@ TRIAD_FUNCTION void path_arrive(const Scene* scene, PathState* path, const Pendi
         light.uv = pending->uv;
         if (!light_complete(scene, &light)) return;
         const Colour radiance = path_light(scene, &path->colours, pending->flags, light.weight);
-        const float weight = power_heuristic(pending->bsdf_pdf * light.inverse_pdf);
+        const float weight = map_heuristic(pending->bsdf_pdf * light.inverse_pdf);
         direct = colour_mul(direct, colour_scale(radiance, weight));
     }
 #else

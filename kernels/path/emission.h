@@ -27,7 +27,7 @@ TRIAD_FUNCTION void path_miss(const Scene* scene, PathState* path, const Hit* hi
     float light_pdf;
     const Colour sky =
         path_colour(&path->colours, environment_radiance(scene, direction, facing, &light_pdf));
-    float weight = path->pdf > 0.0f ? power_heuristic(light_pdf / path->pdf) : 1.0f;
+    float weight = path->pdf > 0.0f ? map_heuristic(light_pdf / path->pdf) : 1.0f;
     if (frame->environment.photons && path_leaves_to_photons(scene, path)) weight = 0.0f;
     path_finds(path, colour_scale(colour_mul(path->throughput, sky), weight), tally);
 }

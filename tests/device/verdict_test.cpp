@@ -33,11 +33,11 @@ TEST_F(VerdictTest, is_kept_per_device_driver_and_settings) {
     const auto load_verdict = [](const DeviceInfo& of) { return triad::load_verdict(of, BvhFormat::bvh8); };
     EXPECT_FALSE(load_verdict(info));
     keep_verdict(info, BvhFormat::bvh8,
-                 verdict_of({result_of("C1 edges", true), result_of("C14 none", std::nullopt)}));
+                 *verdict_of({result_of("C1 edges", true), result_of("C14 none", std::nullopt)}));
     ASSERT_TRUE(load_verdict(info));
     EXPECT_TRUE(load_verdict(info)->wrong.empty());
     keep_verdict(info, BvhFormat::bvh8,
-                 verdict_of({result_of("C1 edges", false), result_of("D4 slab", true)}));
+                 *verdict_of({result_of("C1 edges", false), result_of("D4 slab", true)}));
     EXPECT_EQ(load_verdict(info)->wrong, std::vector<std::string>{"C1 edges"});
     DeviceInfo other = info;
     other.driver += " next";
@@ -46,6 +46,21 @@ TEST_F(VerdictTest, is_kept_per_device_driver_and_settings) {
     other.settings.push_back("MODE=0");
     EXPECT_FALSE(load_verdict(other));
     EXPECT_FALSE(triad::load_verdict(info, BvhFormat::bvh4)) << "it was another format of nodes";
+}
+
+TEST_F(VerdictTest, is_none_where_memory_was_lacking_and_nothing_else_is_wrong) {
+    CheckResult lacking = result_of("C4 moved", false);
+    lacking.lacked_memory = true;
+    EXPECT_FALSE(verdict_of({result_of("C1 edges", true), lacking}));
+    ASSERT_TRUE(verdict_of({result_of("C1 edges", false), lacking}));
+    EXPECT_EQ(verdict_of({result_of("C1 edges", false), lacking})->wrong,
+              std::vector<std::string>{"C1 edges"});
+    const CheckCase none{"X1", "no memory", CheckLevel::quick,
+                         [](Check&) { throw Error(Exit::memory, "none is left"); }};
+    EXPECT_TRUE(run_case(test_device(), none, CheckLevel::quick).lacked_memory);
+    const CheckCase other{"X2", "no device", CheckLevel::quick,
+                          [](Check&) { throw Error(Exit::device, "none is left"); }};
+    EXPECT_FALSE(run_case(test_device(), other, CheckLevel::quick).lacked_memory);
 }
 
 TEST_F(VerdictTest, that_cannot_be_read_is_none) {

@@ -112,6 +112,8 @@ TEST(CommandLine, no_driver_is_a_device_error) {
 TEST(CommandLine, the_list_of_cases_asks_no_device) {
     expect("check --list", 0, "M1 sin and cos", "OCL_ICD_VENDORS=/no/such/folder");
     expect("check --quick --full", 1, "--quick");
+    expect("check --first --full", 1, "--f");
+    expect("check --first --case C1", 1, "--first");
 }
 
 TEST(CommandLine, options_for_every_run_of_a_bench_override_those_of_its_scenes) {

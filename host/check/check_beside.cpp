@@ -1,0 +1,56 @@
+#include "check/check_beside.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "base/log.h"
+#include "base/memory_limit.h"
+#include "base/parallel_for.h"
+#include "base/restart.h"
+#include "base/spans.h"
+#include "check/verdict.h"
+#include "trace/node_format.h"
+#include "trace/path_driver.h"
+
+namespace triad {
+namespace {
+
+Child check_of(const Device& device, const std::string& kernels) {
+    Child child{
+        .arguments = {"/proc/self/exe", "check", "--first", "--quiet", "--device",
+                      std::to_string(device.info().index), "--format", name_of(format_of(device)), "--driver",
+                      name_of(path_driver_of(device)), "--max-memory", std::to_string(memory_limit())},
+        .environment = bound_to_this_process(),
+        .own_group = true};  // an interrupted render waits for the verdict, and saves
+    if (!kernels.empty()) child.arguments.insert(child.arguments.end(), {"--kernels", kernels});
+    return child;
+}
+
+}  // namespace
+
+bool CheckBeside::is_due(const Device& device) {
+    if (load_verdict(device.info(), format_of(device), path_driver_of(device))) return false;
+    if (!restarts_allowed() || host_threads() < 2) return false;
+    const std::filesystem::path folder = kept_path(device.info(), "checked").parent_path();
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    return !folder.empty() && ::access(folder.c_str(), W_OK) == 0;
+}
+
+CheckBeside::CheckBeside(const Device& device, const std::string& kernels)
+    : device_(device.info().name), check_(check_of(device, kernels)) {
+    inform(
+        "First use of " + device_ +
+        " with this driver: whether its answers are right is checked beside the picture, which is written if "
+        "they are.");
+}
+
+void CheckBeside::wait() {
+    if (check_.has_ended()) return;
+    const Span span("wait for the check");
+    inform("Waiting for the check of " + device_ + ".");
+    check_.wait();
+}
+
+}  // namespace triad

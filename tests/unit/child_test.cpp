@@ -1,0 +1,83 @@
+// Programs that run beside this one.
+#include "base/child.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include "unit/temporary_folder.h"
+
+using namespace triad;
+
+namespace {
+
+Child shell(const std::string& script) { return {.arguments = {"sh", "-c", script}}; }
+
+/// The number in a file that another process writes.
+pid_t number_in(const std::filesystem::path& path) {
+    for (int i = 0; i < 500; ++i) {
+        std::ifstream file(path);
+        std::string line;
+        if (std::getline(file, line) && !file.eof()) return pid_t(std::stoi(line));
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return 0;
+}
+
+bool ends_soon(pid_t process) {
+    for (int i = 0; i < 500; ++i) {
+        if (::kill(process, 0) != 0) return true;
+        std::ifstream stat("/proc/" + std::to_string(process) + "/stat");
+        std::string text;
+        std::getline(stat, text);
+        if (text.find(") Z ") != std::string::npos)
+            return true;  // whoever adopted it has not waited for it yet
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+}
+
+}  // namespace
+
+TEST(Child, says_how_it_ended) {
+    EXPECT_EQ(run_child(shell("exit 3"))->exit, 3);
+    EXPECT_EQ(run_child(shell("kill -TERM $$"))->signal, SIGTERM);
+    EXPECT_FALSE(run_child({.arguments = {"no-such-program-here"}}));
+    RunningChild none({.arguments = {"no-such-program-here"}});
+    EXPECT_TRUE(none.has_ended());
+    EXPECT_FALSE(none.wait());
+}
+
+TEST(Child, is_killed_with_all_that_it_started_after_its_seconds) {
+    const TemporaryFolder folder;
+    Child slow = shell("sleep 100 & echo $! > " + (folder / "pid").string() + "; wait");
+    slow.seconds = 0.5;
+    const std::optional<ChildEnd> end = run_child(slow);
+    ASSERT_TRUE(end);
+    EXPECT_TRUE(end->late);
+    EXPECT_EQ(end->signal, SIGKILL);
+    EXPECT_TRUE(ends_soon(number_in(folder / "pid")));
+}
+
+TEST(Child, runs_beside_and_is_killed_with_all_that_it_started_when_it_is_not_waited_for) {
+    const TemporaryFolder folder;
+    pid_t process = 0;
+    {
+        Child slow = shell("sleep 100 & echo $! > " + (folder / "pid").string() + "; wait");
+        slow.own_group = true;
+        RunningChild running(slow);
+        process = number_in(folder / "pid");
+        ASSERT_GT(process, 0);
+        EXPECT_FALSE(running.has_ended());
+    }
+    EXPECT_TRUE(ends_soon(process));
+    RunningChild quick(shell("exit 4"));
+    EXPECT_EQ(quick.wait()->exit, 4);
+    EXPECT_TRUE(quick.has_ended());
+    EXPECT_EQ(quick.wait()->exit, 4) << "asked once more";
+}
