@@ -25,7 +25,8 @@ struct ChildEnd {
     bool late = false;  ///< it was killed because its time was over
 };
 
-/// One that runs, without a shell and without input. It is killed, with all that it started, when this goes.
+/// One that runs, without a shell and without input. It is killed when this goes; in a group of its own with
+/// all that it started.
 class RunningChild {
   public:
     explicit RunningChild(const Child& child);

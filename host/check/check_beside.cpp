@@ -32,7 +32,8 @@ Child check_of(const Device& device, const std::string& kernels) {
 bool CheckBeside::is_due(const Device& device) {
     if (load_verdict(device.info(), format_of(device), path_driver_of(device))) return false;
     if (!restarts_allowed() || host_threads() < 2) return false;
-    const std::filesystem::path folder = kept_path(device.info(), "checked").parent_path();
+    const std::filesystem::path folder =
+        verdict_path(device.info(), format_of(device), path_driver_of(device)).parent_path();
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     return !folder.empty() && ::access(folder.c_str(), W_OK) == 0;
@@ -40,17 +41,22 @@ bool CheckBeside::is_due(const Device& device) {
 
 CheckBeside::CheckBeside(const Device& device, const std::string& kernels)
     : device_(device.info().name), check_(check_of(device, kernels)) {
-    inform(
-        "First use of " + device_ +
-        " with this driver: whether its answers are right is checked beside the picture, which is written if "
-        "they are.");
+    inform("First use of " + device_ +
+           " with this driver: whether its answers are right is checked beside the picture.");
 }
 
 void CheckBeside::wait() {
-    if (check_.has_ended()) return;
-    const Span span("wait for the check");
-    inform("Waiting for the check of " + device_ + ".");
-    check_.wait();
+    std::optional<Span> span;
+    if (!check_.has_ended()) {
+        span.emplace("wait for the check", "device");
+        inform("Waiting for the check of " + device_ + ".");
+    }
+    const std::optional<ChildEnd> end = check_.wait();
+    detail("The check beside the picture " +
+           (!end          ? "could not be started"
+            : end->signal ? "was ended by signal " + std::to_string(end->signal)
+                          : "ended with exit code " + std::to_string(end->exit)) +
+           ".");
 }
 
 }  // namespace triad

@@ -8,7 +8,7 @@
 namespace triad {
 
 /// A process of its own, `triad check --first`, which keeps its verdict in the cache folder: drivers compile
-/// one kernel at a time within a process. Where it fails to, ensure_checked() finds the verdict anew.
+/// one kernel at a time within a process. Where it fails to, ensure_checked() finds it anew.
 class CheckBeside {
   public:
     /// Whether a device without a verdict can get it so: this is a program of ours on more than one
@@ -16,6 +16,7 @@ class CheckBeside {
     static bool is_due(const Device& device);
 
     /// Begins, and says so. The device is a whole one that uses every processor; kernels: folder, or empty.
+    /// Each of the two processes may take what this one may.
     CheckBeside(const Device& device, const std::string& kernels);
 
     bool has_ended() { return check_.has_ended(); }

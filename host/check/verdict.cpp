@@ -16,10 +16,6 @@ namespace {
 
 constexpr const char* schema = "triad.verdict/1";
 
-fs::path path_of(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
-    return kept_path(device, std::string("checked/") + name_of(driver) + "-" + name_of(format));
-}
-
 std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
     std::string names;
     for (const std::string& name : verdict.wrong) names += (names.empty() ? "" : ", ") + name;
@@ -28,13 +24,17 @@ std::string sentence(const Verdict& verdict, const DeviceInfo& device) {
 
 }  // namespace
 
+fs::path verdict_path(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
+    return kept_path(device, std::string("checked/") + name_of(driver) + "-" + name_of(format));
+}
+
 std::vector<CheckCase> first_cases() {
     return cases_of(CheckLevel::quick, {"L2", "M10", "C18d", "C1", "C2", "C3", "C7", "C11c", "C17", "R1",
                                         "C4", "C23", "C20", "D4", "D2"});
 }
 
 std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format, PathDriverKind driver) {
-    const fs::path path = path_of(device, format, driver);
+    const fs::path path = verdict_path(device, format, driver);
     std::ifstream file(path);
     if (path.empty() || !file) return {};
     const auto json = nlohmann::json::parse(file, nullptr, false);
@@ -50,7 +50,7 @@ std::optional<Verdict> load_verdict(const DeviceInfo& device, BvhFormat format, 
 }
 
 void keep_verdict(const DeviceInfo& device, BvhFormat format, const Verdict& verdict, PathDriverKind driver) {
-    const fs::path path = path_of(device, format, driver);
+    const fs::path path = verdict_path(device, format, driver);
     if (path.empty()) return;
     const nlohmann::json json{{"schema", schema},          {"device", device.name},
                               {"driver", device.driver},   {"platform", device.platform},
@@ -74,7 +74,7 @@ std::optional<Verdict> verdict_of(const std::vector<CheckResult>& results) {
     return verdict;
 }
 
-Verdict ensure_checked(Device& device) {
+std::optional<Verdict> ensure_checked(Device& device) {
     const BvhFormat format = format_of(device);
     if (const auto kept = load_verdict(device.info(), format, path_driver_of(device))) return *kept;
     inform("First use of " + device.info().name +
@@ -82,11 +82,8 @@ Verdict ensure_checked(Device& device) {
     const WithoutDetails quiet;
     const std::optional<Verdict> verdict =
         verdict_of(run_cases(device, first_cases(), CheckLevel::quick, [](const CheckResult&) {}));
-    if (!verdict)
-        throw Error(Exit::memory,
-                    device.info().name + " has too little memory to check that its answers are right.");
-    keep_verdict(device.info(), format, *verdict, path_driver_of(device));
-    return *verdict;
+    if (verdict) keep_verdict(device.info(), format, *verdict, path_driver_of(device));
+    return verdict;
 }
 
 void require_right(const Verdict& verdict, const DeviceInfo& device, bool force) {
@@ -95,6 +92,15 @@ void require_right(const Verdict& verdict, const DeviceInfo& device, bool force)
     throw Error(Exit::device,
                 sentence(verdict, device) +
                     " triad check says more; choose another --device, or --force to render with it.");
+}
+
+void require_right(Device& device, bool force) {
+    if (const std::optional<Verdict> verdict = ensure_checked(device))
+        return require_right(*verdict, device.info(), force);
+    const std::string lack =
+        device.info().name + " has too little memory to check that its answers are right";
+    if (force) return warn(lack + ". The picture may be wrong.");
+    throw Error(Exit::memory, lack + "; --force renders without the check.");
 }
 
 }  // namespace triad

@@ -37,7 +37,10 @@ void print(const CheckResult& r) {
     if (!r.ok)
         std::printf("%-62s %10s %10s  not applicable\n", r.name.c_str(), "", "");
     else
-        std::printf("%-62s %10.3g %10.3g  %s\n", r.name.c_str(), r.value, r.bound, *r.ok ? "ok" : "WRONG");
+        std::printf("%-62s %10.3g %10.3g  %s\n", r.name.c_str(), r.value, r.bound,
+                    *r.ok             ? "ok"
+                    : r.lacked_memory ? "no memory"
+                                      : "WRONG");
     for (const std::string& failure : r.failures) std::printf("    %s\n", failure.c_str());
     std::fflush(stdout);
     detail(r.name + ": " + std::to_string(r.seconds) + " s" + (r.what.empty() ? "" : "; " + r.what));
@@ -72,15 +75,16 @@ Exit run(const CheckOptions& o) {
         if (lines) print(r);
     });
     Json rows = Json::array();
-    std::size_t wrong = 0, absent = 0;
+    std::size_t wrong = 0, absent = 0, lacking = 0;
     for (const CheckResult& r : results) {
-        wrong += r.ok == false, absent += !r.ok;
+        const bool answered = r.ok && !r.lacked_memory;
+        wrong += answered && !*r.ok, absent += !r.ok, lacking += r.lacked_memory;
         rows.push_back({{"case", r.name},
                         {"format", name_of(format)},
                         {"path_driver", name_of(path_driver)},
-                        {"value", r.ok && std::isfinite(r.value) ? Json(r.value) : Json()},
-                        {"bound", r.ok ? Json(r.bound) : Json()},
-                        {"ok", r.ok ? Json(*r.ok) : Json()},
+                        {"value", answered && std::isfinite(r.value) ? Json(r.value) : Json()},
+                        {"bound", answered ? Json(r.bound) : Json()},
+                        {"ok", answered ? Json(*r.ok) : Json()},
                         {"what", r.what},
                         {"failures", r.failures},
                         {"seconds", r.seconds}});
@@ -89,13 +93,14 @@ Exit run(const CheckOptions& o) {
     const std::optional<Verdict> verdict = verdict_of(results);
     if (o.only.empty() && o.level != CheckLevel::tiny && verdict)
         keep_verdict(device.info(), format, *verdict, path_driver);
-    const std::string counts = std::to_string(results.size() - wrong - absent) + " right, " +
+    const std::string counts = std::to_string(results.size() - wrong - absent - lacking) + " right, " +
                                std::to_string(wrong) + " wrong, " + std::to_string(absent) +
-                               " not applicable";
-    if (wrong > 0)
-        throw Error(verdict ? Exit::device : Exit::memory,
+                               " not applicable" +
+                               (lacking ? ", " + std::to_string(lacking) + " without memory" : "");
+    if (wrong + lacking > 0)
+        throw Error(wrong ? Exit::device : Exit::memory,
                     device.info().name + " with driver " + device.info().driver +
-                        (verdict ? " is wrong: " : " has too little memory for some cases: ") + counts + ".");
+                        (wrong ? " is wrong: " : " has too little memory: ") + counts + ".");
     if (lines) std::printf("%s\n", counts.c_str());
     return Exit::done;
 }

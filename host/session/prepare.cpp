@@ -159,7 +159,7 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
 
 namespace {
 
-Device opened(const RenderRequest& o, Device::Settings settings, FirstCheck when) {
+Device opened(const RenderRequest& o, Device::Settings settings, bool* check_is_due = nullptr) {
     const Span span("open the device", "device");
     settings.profile = o.profile;
     Device device = Device::open(settings);
@@ -167,8 +167,9 @@ Device opened(const RenderRequest& o, Device::Settings settings, FirstCheck when
     if (o.format) wishes["format"] = name_of(*o.format);
     if (o.path_driver) wishes["path_driver"] = name_of(*o.path_driver);
     const Tuning tuning = ensure_tuned(device, wishes);
-    if (when == FirstCheck::before || !CheckBeside::is_due(device))
-        require_right(ensure_checked(device), device.info(), o.force);
+    const bool due = check_is_due && CheckBeside::is_due(device);
+    if (check_is_due) *check_is_due = due;
+    if (!due) require_right(device, o.force);
     detail("Device: " + device.info().name + ", driver " + device.info().driver + ", " + text_of(tuning));
     return device;
 }
@@ -232,9 +233,7 @@ std::vector<Device::Settings> named_devices(const std::string& text, unsigned th
 
 }  // namespace
 
-Device open_device(const RenderRequest& o) {
-    return opened(o, {.selector = o.device, .threads = o.threads}, FirstCheck::before);
-}
+Device open_device(const RenderRequest& o) { return opened(o, {.selector = o.device, .threads = o.threads}); }
 
 std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>& devices) {
     std::map<std::string, std::vector<std::size_t>> groups;
@@ -245,14 +244,14 @@ std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>&
     return hardware;
 }
 
-std::vector<Device> open_devices(const RenderRequest& o, FirstCheck when) {
+std::vector<Device> open_devices(const RenderRequest& o, bool* check_is_due) {
     const std::vector<Device::Settings> wanted = named_devices(o.device, o.threads);
-    if (wanted.size() > 1 || wanted.front().parts > 1) when = FirstCheck::before;
+    if (wanted.size() > 1 || wanted.front().parts > 1) check_is_due = nullptr;
     std::vector<Device> devices;
     std::exception_ptr failed;
     for (const Device::Settings& settings : wanted) {
         try {
-            devices.push_back(opened(o, settings, when));
+            devices.push_back(opened(o, settings, check_is_due));
         } catch (const Error& error) {
             if (wanted.size() == 1 || error.exit() == Exit::usage) throw;
             failed = std::current_exception();

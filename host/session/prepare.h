@@ -33,17 +33,15 @@ void apply_glass(Scene& scene, const std::string& text);
 /// What decides the picture, the view chosen. Throws Error(usage) for a pixel outside it.
 RenderSettings settings_of(const RenderRequest& options, const Scene& scene);
 
-/// When a device that is new here proves itself: before it is handed out, or where that is possible beside
-/// the first picture (RenderSession::prove()). Several devices, and parts of one, do so before.
-enum class FirstCheck { before, beside };
-
 /// The device of --device and --threads, tuned, and checked unless it was before. Throws Error(device) when
 /// it computes wrong answers and --force is not given.
 Device open_device(const RenderRequest& options);
 
 /// Those of --device SEL[/N][,SEL[/N]...] or all, at least one. Of several, one that cannot be opened or
 /// computes wrong answers is left out with a warning.
-std::vector<Device> open_devices(const RenderRequest& options, FirstCheck when = FirstCheck::before);
+/// `check_is_due`: a single whole device that is new here is not checked, and this says so, where its check
+/// can run beside the picture (RenderSession::prove()).
+std::vector<Device> open_devices(const RenderRequest& options, bool* check_is_due = nullptr);
 
 /// Places of usable devices by the hardware that they are drivers of.
 std::vector<std::vector<std::size_t>> hardware_of(const std::vector<DeviceInfo>& devices);

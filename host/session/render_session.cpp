@@ -4,7 +4,6 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "display/perceived_noise.h"
 #include "display/perceived_sets.h"
 #include "io/io.h"
+#include "session/film_layers.h"
 #include "session/prepare.h"
 #include "trace/node_format.h"
 #include "trace/path_driver.h"
@@ -59,14 +59,11 @@ std::unique_ptr<FileLock> lock_of(const RenderRequest& request) {
     return lock;
 }
 
-/// What a check beside the picture would disturb: a number of threads, a time, a profile.
-FirstCheck first_check_of(const RenderRequest& o) {
-    return o.threads > 0 || o.goal().seconds > 0 || o.profile ? FirstCheck::before : FirstCheck::beside;
-}
-
-OpenDevices opened(const RenderRequest& request, OpenDevices* kept) {
+OpenDevices opened(const RenderRequest& o, OpenDevices* kept, bool& check_is_due) {
     if (kept && *kept) return *kept;
-    return std::make_shared<std::vector<Device>>(open_devices(request, first_check_of(request)));
+    // A check beside the picture would disturb these.
+    const bool before = o.threads > 0 || o.goal().seconds > 0 || o.profile;
+    return std::make_shared<std::vector<Device>>(open_devices(o, before ? nullptr : &check_is_due));
 }
 
 std::vector<Device*> pointers(std::vector<Device>& devices) {
@@ -105,57 +102,6 @@ LoadedScene timed_scene(const RenderRequest& request, std::optional<LoadedScene>
     return loaded;
 }
 
-/// Edges and the blur of the lens have noise; the planes have no other.
-constexpr unsigned feature_samples = 16;
-
-/// What denoisers are guided by.
-void add_guides(Renderer& renderer, Film& film) {
-    const FeaturePlanes planes = renderer.feature_planes(feature_samples);
-    film.has_guides = true;
-    film.guides.clear();
-    for (std::size_t p = 0; p < film.pixels(); ++p) {
-        film.guides.insert(film.guides.end(), &planes.albedo[3 * p], &planes.albedo[3 * p] + 3);
-        film.guides.insert(film.guides.end(), &planes.normal[3 * p], &planes.normal[3 * p] + 3);
-        film.guides.push_back(planes.depth[p]);
-    }
-}
-
-/// The planes of --aov, as EXR channels.
-std::vector<Channel> layers_of(const RenderRequest& o, Renderer& renderer, const Film& film) {
-    std::vector<Channel> layers;
-    auto asked = [&](const char* name) {
-        return std::find(o.aovs.begin(), o.aovs.end(), name) != o.aovs.end();
-    };
-    auto add = [&](const std::string& name, const char* parts, const auto& values) {
-        const std::size_t n = std::char_traits<char>::length(parts);
-        for (std::size_t c = 0; c < n; ++c) {
-            Channel channel{name + "." + parts[c], std::vector<float>(film.pixels())};
-            for (std::size_t i = 0; i < film.pixels(); ++i)
-                channel.values[i] = static_cast<float>(values[i * n + c]);
-            layers.push_back(std::move(channel));
-        }
-    };
-    if (asked("albedo") || asked("normal") || asked("position") || asked("depth")) {
-        const FeaturePlanes planes = renderer.feature_planes(feature_samples);
-        if (asked("albedo")) add("albedo", "RGB", planes.albedo);
-        if (asked("normal")) add("normal", "XYZ", planes.normal);
-        if (asked("position")) add("position", "XYZ", planes.position);
-        if (asked("depth")) add("depth", "Z", planes.depth);
-    }
-    if (asked("samples")) add("samplecount", "Y", film.samples);
-    if (asked("variance")) {
-        std::vector<float> variance = mean_variance(film);
-        if (variance.empty()) variance.assign(film.pixels() * 3, std::numeric_limits<float>::quiet_NaN());
-        add("variance", "RGB", variance);
-    }
-    if (asked("error")) {
-        std::vector<float> errors = error_map(film);
-        if (errors.empty()) errors.assign(film.pixels(), std::numeric_limits<float>::quiet_NaN());
-        add("error", "Y", errors);
-    }
-    return layers;
-}
-
 }  // namespace
 
 RenderSession::RenderSession(RenderRequest request, OpenDevices* kept)
@@ -169,10 +115,10 @@ RenderSession::RenderSession(RenderRequest request, std::optional<LoadedScene> l
       lock_(lock_of(request_)),
       loaded_(timed_scene(request_, std::move(loaded), load_seconds_)),
       settings_(settings_of(request_, scene())),
-      devices_(opened(request_, kept)),
+      devices_(opened(request_, kept, check_is_due_)),
       kept_(kept),
       check_(first_check()),
-      renderer_(std::make_unique<Renderer>(pointers(*devices_), scene(), settings_)),
+      renderer_(made_renderer()),
       goal_(request_.goal()) {
     if (!request_.film_path.empty())
         goal_.keep = {.write = [this](const Film& film) { keep(film); },
@@ -216,29 +162,42 @@ void RenderSession::resume() {
             missing_->push_back({std::max(hole.begin, goal_.samples.begin), hole.end});
 }
 
-/// Where none is due, the devices have proved themselves, and are kept.
+/// Devices that have proved themselves are kept.
 std::optional<CheckBeside> RenderSession::first_check() {
-    if (first_check_of(request_) == FirstCheck::before || !CheckBeside::is_due(device())) {
-        if (kept_) *kept_ = devices_;
-        return {};
-    }
-    return std::optional<CheckBeside>(std::in_place, device(), request_.kernels_path);
+    if (check_is_due_) return std::optional<CheckBeside>(std::in_place, device(), request_.kernels_path);
+    if (kept_) *kept_ = devices_;
+    return {};
 }
 
 void RenderSession::prove() {
     if (!check_) return;
     check_->wait();
-    require_right(ensure_checked(devices_->front()), device().info(), request_.force);
     check_.reset();
+    require_right(devices_->front(), request_.force);
     if (kept_) *kept_ = devices_;
 }
 
-/// Does not wait, nor check: a verdict that is there is heeded.
+/// Does not wait for the check. Where it died without a verdict, it is made anew at once: nothing is kept of
+/// the film before.
 bool RenderSession::is_proved() {
-    if (check_ && check_->has_ended() &&
-        load_verdict(device().info(), format_of(device()), path_driver_of(device())))
-        prove();
+    if (check_ && check_->has_ended()) prove();
     return !check_;
+}
+
+/// That the device is wrong says more than what failed on it, but of one that hangs there is no answer.
+template <class Work>
+auto RenderSession::unless_device_is_wrong(const Work& work) {
+    try {
+        return work();
+    } catch (const Error& error) {
+        if (error.exit() == Exit::device && !any_device_hangs()) prove();
+        throw;
+    }
+}
+
+std::unique_ptr<Renderer> RenderSession::made_renderer() {
+    return unless_device_is_wrong(
+        [&] { return std::make_unique<Renderer>(pointers(*devices_), scene(), settings_); });
 }
 
 /// The film as it was stays where it cannot be written, which is no reason to stop. Nothing is written of a
@@ -273,7 +232,9 @@ RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& 
         return report(progress);
     };
     RenderOutcome outcome;
-    outcome.result = missing_ ? fill_holes(proving_report) : renderer_->render_until(goal_, proving_report);
+    outcome.result = unless_device_is_wrong([&] {
+        return missing_ ? fill_holes(proving_report) : renderer_->render_until(goal_, proving_report);
+    });
     prove();
     outcome.film = renderer_->film();
     if (request_.style.denoise != Denoiser::off) add_guides(*renderer_, outcome.film);

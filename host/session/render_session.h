@@ -39,9 +39,8 @@ class RenderSession {
     /// The same of a scene that was read before.
     RenderSession(RenderRequest request, LoadedScene loaded, OpenDevices* kept = nullptr);
 
-    /// Waits for the check of a device that is new here, and throws Error(device) where it computes wrong
-    /// answers
-    /// (--force: warns). What renders and hands out pictures or films does so before.
+    /// Waits for the check of a device that is new here; throws or warns as require_right() does. What
+    /// renders and hands out pictures or films does so before.
     void prove();
 
     /// Renders until the request's goal is reached or `report`, called after every pass, returns false. The
@@ -74,6 +73,7 @@ class RenderSession {
     double load_seconds_ = 0, resumed_samples_ = 0;
     LoadedScene loaded_;
     RenderSettings settings_;
+    bool check_is_due_ = false;
     OpenDevices devices_;
     OpenDevices* kept_;                 ///< null: they are not
     std::optional<CheckBeside> check_;  ///< of a device without a verdict, until it has one
@@ -83,6 +83,9 @@ class RenderSession {
 
     RenderSession(RenderRequest request, std::optional<LoadedScene> loaded, OpenDevices* kept);
     std::optional<CheckBeside> first_check();
+    std::unique_ptr<Renderer> made_renderer();
+    template <class Work>
+    auto unless_device_is_wrong(const Work& work);
     bool is_proved();
     void resume();
     void keep(const Film& film);

@@ -56,12 +56,14 @@ TEST(Child, says_how_it_ended) {
 TEST(Child, is_killed_with_all_that_it_started_after_its_seconds) {
     const TemporaryFolder folder;
     Child slow = shell("sleep 100 & echo $! > " + (folder / "pid").string() + "; wait");
-    slow.seconds = 0.5;
+    slow.seconds = 5;
     const std::optional<ChildEnd> end = run_child(slow);
     ASSERT_TRUE(end);
     EXPECT_TRUE(end->late);
     EXPECT_EQ(end->signal, SIGKILL);
-    EXPECT_TRUE(ends_soon(number_in(folder / "pid")));
+    const pid_t process = number_in(folder / "pid");
+    ASSERT_GT(process, 0);
+    EXPECT_TRUE(ends_soon(process));
 }
 
 TEST(Child, runs_beside_and_is_killed_with_all_that_it_started_when_it_is_not_waited_for) {
