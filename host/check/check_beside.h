@@ -12,7 +12,7 @@ namespace triad {
 class CheckBeside {
   public:
     /// Whether a device without a verdict can get it so: this is a program of ours on more than one
-    /// processor, without a limit on its memory, and its cache folder can be written.
+    /// processor, and its cache folder can be written.
     static bool is_due(const Device& device);
 
     /// Begins, and says so. The device is a whole one that uses every processor; kernels: folder, or empty.
