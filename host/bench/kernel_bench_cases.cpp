@@ -89,8 +89,7 @@ const char* const light_drawn = R"(
     light.inverse_pdf = 0.0f;
     const Receiver receiver = {vec3_make(IN(0) - 0.5f, IN(1) - 0.5f, IN(2) - 0.5f), vec3_splat(0.0f)};
     const int lit = light_sample(
-        &scene, receiver, (uint)(IN(3) * 4294967040.0f),
-        uvec2_make((uint)(IN(10) * 4294967040.0f), (uint)(IN(11) * 4294967040.0f)), &light);
+        &scene, receiver, uvec2_make((uint)(IN(10) * 4294967040.0f), (uint)(IN(11) * 4294967040.0f)), &light);
     OUT3(0, light.direction);
     OUT3(3, light.weight);
     OUT(6, light.inverse_pdf);

@@ -122,7 +122,7 @@ void nothing_is_lost(Check& check) {
         const std::size_t count = check.count(1 << 18);
         const auto drawn = draw(check, packed, receivers[0], R"(
     LightSample sample;
-    const int any = light_sample(&scene, receiver, pick, uvec2_make(0u, 0u), &sample);
+    const int any = light_sample(&scene, receiver, uvec2_make(pick, 0u), &sample);
     w = vec4_splat(any ? sample.weight.x * math_max(sample.direction.y, 0.0f) : 0.0f);
 )",
                                 count);

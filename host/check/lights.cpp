@@ -20,14 +20,26 @@ __kernel void draw(__global Vec4* out, SCENE_PARAMETERS, uint count) {
     const Sampler s = sampler_make(3u, i, 0u, 0u, 11u);
     LightSample l;
     l.uv = vec2_splat(0.0f);
-    const uint pick = sampler_2d_bits(&s, SAMPLER_SOBOL_SETS).x;
     const Receiver receiver = {vec3_splat(0.0f), vec3_splat(0.0f)};
-    const int lit = light_sample(&scene, receiver, pick, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
+    const int lit = light_sample(&scene, receiver, sampler_2d_bits(&s, SAMPLER_SOBOL_SETS + 1u), &l) &&
                     light_complete(&scene, &l);
     float pdf = 0.0f;
     if (lit && l.distant) environment_radiance(&scene, l.direction, receiver.facing, &pdf);
     out[2 * i] = lit ? vec3_with(l.direction, l.inverse_pdf) : vec4_splat(0.0f);
     out[2 * i + 1] = lit ? vec4_make(pdf, l.weight.y, l.uv.x, l.uv.y) : vec4_splat(0.0f);
+}
+/* Irradiance of a surface (its place, its normal) by one sample: of the map, of the other lights. */
+__kernel void irradiance(__global Vec2* out, SCENE_PARAMETERS, __global const float* surface, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    const Scene scene = SCENE_FROM_PARAMETERS;
+    const Sampler s = sampler_make(5u, i, 0u, 0u, 12u);
+    const Vec3 n = vec3_load(surface, 1u);
+    const Receiver receiver = {vec3_load(surface, 0u), n, facing_of(n)};
+    LightSample l;
+    const int lit = light_sample(&scene, receiver, sampler_2d_bits(&s, 0u), &l) && light_complete(&scene, &l);
+    const float from = lit ? l.weight.y * math_max(vec3_dot(n, l.direction), 0.0f) : 0.0f;
+    out[i] = lit && l.distant ? vec2_make(from, 0.0f) : vec2_make(0.0f, from);
 }
 /* The map's radiance from a direction. */
 __kernel void look(__global Vec4* out, SCENE_PARAMETERS, __global const float* directions, uint count) {
@@ -84,6 +96,67 @@ void environment_samples(Check& check) {
         const double x = u * w - std::floor(u * w), y = v * h - std::floor(v * h);
         if (std::min({x, y, 1 - x, 1 - y}) > 1e-3)
             check.near(double(s[0]) * a[3], 1, 1e-5, "pdf against its inverse");
+    }
+}
+
+/// Irradiance of a surface that faces n by the map, its radiance asked for at many directions.
+double irradiance_by_map(Check& check, const OnDevice& world, dvec3 n) {
+    const std::size_t across = 512, down = 256;
+    std::vector<float> directions;
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < across * down; ++i) {
+        const double phi = 2 * pi * (double(i % across) + 0.5) / double(across),
+                     theta = pi * (double(i / across) + 0.5) / double(down);
+        const dvec3 d(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+        for (const double x : {d.x, d.y, d.z}) directions.push_back(float(x));
+        weights.push_back(std::max(glm::dot(n, d), 0.0) * std::sin(theta) * 2 * pi * pi /
+                          double(across * down));
+    }
+    const auto seen = run_kernel<Four>(check.device, lights_source, "look",
+                                       Arguments().add(world.arguments).add(check.device.upload(directions)),
+                                       weights.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) sum += seen[i][1] * weights[i];
+    return sum;
+}
+
+void a_map_beside_lamps(Check& check) {
+    // The number that picks among map and lamps goes on to say where in the map: the map's share of it must
+    // reach all of the map. Few lamps are picked by their power, many by a tree.
+    const unsigned w = 32, h = 16;
+    EnvironmentMap map{w, h, std::vector<float>(w * h * 3)};
+    for (unsigned i = 0; i < w * h; ++i)
+        for (int c = 0; c < 3; ++c) map.rgb[i * 3 + c] = 0.5f + float(i % w * 7 % 11) + float(i % w) / 4;
+    const dvec3 n = glm::normalize(dvec3(0.3, 0.8, -0.5));
+    for (const int lamps : {3, 40}) {
+        Builder b;
+        b.add(square(-1, true), lambert(0.5f)).scene.environment = map;
+        double by_lamps = 0;
+        for (int i = 0; i < lamps; ++i) {
+            const dvec3 to(std::cos(i * 2.4), 1.0 + i % 3, std::sin(i * 2.4));
+            const double power = 60.0 / lamps * (1 + i % 4), distance = glm::length(to);
+            PunctualLight lamp{.type = PunctualLight::Type::point, .colour = vec3(float(power))};
+            lamp.position = to;
+            b.scene.lights.push_back(lamp);
+            by_lamps += power * std::max(glm::dot(n, to), 0.0) / (distance * distance * distance);
+        }
+        const OnDevice world = on_device(check.device, b.scene);
+        const double by_map = irradiance_by_map(check, world, n);
+        std::vector<float> surface;
+        for (const dvec3& v : {-world.packed.origin, n})
+            for (const double x : {v.x, v.y, v.z}) surface.push_back(float(x));
+        const std::size_t count = check.count(1 << 18, 1 << 14);
+        const auto drawn = run_kernel<std::array<float, 2>>(
+            check.device, lights_source, "irradiance",
+            Arguments().add(world.arguments).add(check.device.upload(surface)), count);
+        for (const bool lamp : {false, true}) {
+            double sum = 0, square = 0;
+            for (const auto& d : drawn) sum += d[lamp], square += double(d[lamp]) * d[lamp];
+            const double mean = sum / double(count), truth = lamp ? by_lamps : by_map;
+            const double deviation = std::sqrt((square / double(count) - mean * mean) / double(count));
+            check.near(mean / truth, 1, 5 * deviation / truth + 1e-3, "irradiance by ",
+                       lamp ? "lamps" : "the map", ", lamps: ", lamps);
+        }
     }
 }
 
@@ -147,6 +220,7 @@ void add_lights(std::vector<CheckCase>& cases) {
                      {"C15", "tiny far light", quick, tiny_far_light},
                      {"C15b", "weights of two samplings at their ends", quick, heuristics_at_their_ends},
                      {"C16e", "samples of the environment and their density", quick, environment_samples},
+                     {"C16h", "a map beside lamps", quick, a_map_beside_lamps},
                      {"C16f", "the environment from any bits", quick, any_direction},
                  });
 }

@@ -172,7 +172,7 @@ void pick_lights(Picker& picker) {
     for (std::size_t i = 0; i < weights.size(); ++i) {
         dev::Light& l = packed.lights[i];
         if (!in_tree[i]) l.pick = static_cast<float>((cdf[i + 1] - cdf[i]) / 4294967296.0);
-        l.area_per_pick = l.pick > 0 ? l.area / l.pick : 3e38f;
+        l.inverse_pick = l.pick > 0 ? 1 / l.pick : LIGHT_UNPICKED;
     }
     if (first < weights.size()) {
         // The tree's interval in halves: what is over of the borders goes to the neighbours.

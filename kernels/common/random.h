@@ -9,7 +9,8 @@
  * constants, as in pbrt-v4's FastOwenScrambler). Sets beyond are hashed.
  *
  * The plan of the path tracer: block 0 is pixel, lens, (wavelength, time), spare; block b, for the b-th
- * vertex of the path, is direction of the BSDF, (lobe, roulette), (choice of light, spare), point on it.
+ * vertex of the path, is (lobe and direction of the BSDF), (through a boundary, roulette), (light and point
+ * on it), spare.
  */
 #ifndef TRIAD_COMMON_RANDOM_H
 #define TRIAD_COMMON_RANDOM_H

@@ -24,11 +24,21 @@ TRIAD_FUNCTION Vec3 sampling_cosine(Vec2 u) {
 }
 TRIAD_FUNCTION float sampling_cosine_pdf(float z) { return math_max(z, 0.0f) * MATH_INV_PI; }
 
+/* Chooses with probability p by *u, uniform in [0, 1), and leaves in *u where it lies in what chose: uniform
+ * again. So points that lie evenly still do so within every choice, where a number of its own for the choice
+ * would draw at random who gets which of them. p 0 and 1 change nothing. */
+TRIAD_FUNCTION uint sampling_choose(float* u, float p) {
+    const uint chosen = *u < p;
+    const float within = chosen ? *u / p : (*u - p) / (1.0f - p);
+    *u = math_min(within, 0x1.fffffep-1f);
+    return chosen;
+}
+
 /* Barycentric weights of corners 1 and 2 of a triangle, uniform: pdf 1 / area (Heitz 2019, "A Low-Distortion
  * Map Between Triangle and Square"). */
 TRIAD_FUNCTION Vec2 sampling_triangle(Vec2 u) {
-    return u.y > u.x ? vec2_make(u.x * 0.5f, fma(-0.5f, u.x, u.y))
-                     : vec2_make(fma(-0.5f, u.y, u.x), u.y * 0.5f);
+    const float half_least = 0.5f * math_min(u.x, u.y);
+    return vec2_make(u.x - half_least, u.y - half_least);
 }
 
 /* The half sphere about z: pdf 1 / (2 pi). z > 0. */

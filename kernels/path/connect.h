@@ -58,7 +58,7 @@ TRIAD_FUNCTION Colour connect_transmittance(const Scene* scene, const PathState*
 
 TRIAD_FUNCTION LightPick path_pick(const Scene* scene, const PathState* path, const Vertex* vertex,
                                    const SamplerBlock* u) {
-    const LightPick none = {TRIAD_NONE, 0.0f};
+    const LightPick none = {TRIAD_NONE, 0.0f, 0.0f};
     if (scene->frame->light_count == 0u || path_ends_in_map(scene, path)) return none;
     return light_pick(scene, path_receiver(path, vertex->surface.position), u->set[2].x);
 }
@@ -70,7 +70,7 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
     const Surface* s = &vertex->surface;
     LightSample light;
     if (!bsdf_has_smooth(&v->bsdf) ||
-        !light_sample_picked(scene, pick, path_receiver(path, s->position), u->set[3], &light))
+        !light_sample_picked(scene, pick, path_receiver(path, s->position), u->set[2], &light))
         return 0;
     const float side = vec3_dot(light.direction, vertex->ng);
     const Vec3 wi = frame_to_local(&v->frame, light.direction);

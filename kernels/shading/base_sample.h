@@ -113,26 +113,22 @@ TRIAD_FUNCTION_PER_CALL Colour base_eval(const BaseBsdf* b, Vec3 wo, Vec3 wi, fl
     return f;
 }
 
-/* One sample: u_lobe picks the lobe, u the direction; all in [0, 1). */
-TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_lobe, Vec2 u) {
+/* One sample: u picks the lobe and the direction, u_through whether it goes through a boundary; all in
+ * [0, 1). */
+TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_through, Vec2 u) {
     BsdfSample s;
+    (void)u_through;
     s.wi = vec3_make(0.0f, 0.0f, 1.0f);
     s.weight = colour_splat(0.0f);
     s.pdf = 0.0f;
     s.event = BSDF_NONE;
 #if TRIAD_SPECULAR
-    if (u_lobe < b->p_specular) {
+    if (sampling_choose(&u.x, b->p_specular)) {
         float cap = b->cap;
-        Vec2 point = u;
 #if BSDF_TRANSMISSION
-        if (b->p_cap > 0.0f) {
-            uint bounded = u.y < b->p_cap;
-            point.y = bounded ? u.y / b->p_cap : (u.y - b->p_cap) / (1.0f - b->p_cap);
-            point.y = math_min(point.y, 0x1.fffffep-1f);
-            cap = bounded ? cap : 1.0f;
-        }
+        if (b->p_cap > 0.0f && !sampling_choose(&u.y, b->p_cap)) cap = 1.0f;
 #endif
-        Vec3 h = b->smooth ? vec3_make(0.0f, 0.0f, 1.0f) : base_normal(b, wo, cap, point);
+        Vec3 h = b->smooth ? vec3_make(0.0f, 0.0f, 1.0f) : base_normal(b, wo, cap, u);
         float c = b->smooth ? wo.z : math_min(vec3_dot(wo, h), 1.0f);
         Colour reflected, transmitted;
         base_microfacet(b, c, &reflected, &transmitted);
@@ -140,7 +136,7 @@ TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_lobe, 
         if (c <= 0.0f || reflect < 0.0f) return s;
         uint through = 0u;
 #if BSDF_TRANSMISSION
-        through = b->transmits && u_lobe >= reflect * b->p_specular;
+        through = b->transmits && u_through >= reflect;
         if (through && b->solid) {
             s.wi = vec3_fma_scale(c / b->eta - fresnel_refracted_cosine(c, b->eta), h,
                                   vec3_scale(wo, -1.0f / b->eta));
@@ -165,22 +161,21 @@ TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_lobe, 
     } else
 #endif
     {
+#if TRIAD_DIFFUSE_TRANSMISSION
+        const uint through = sampling_choose(&u.x, b->p_through);
+#endif
         s.wi = sampling_cosine(u);
         s.event = BSDF_DIFFUSE;
         uint alone = 1u;
-        float before = 0.0f;
 #if TRIAD_SPECULAR
-        before = b->p_specular;
-        alone = !(before > 0.0f);
+        alone = !(b->p_specular > 0.0f);
 #endif
 #if TRIAD_DIFFUSE_TRANSMISSION
         alone = alone && !(b->p_through > 0.0f);
-        if (u_lobe - before < b->p_through * (1.0f - before)) {
+        if (through) {
             s.wi.z = -s.wi.z;
             s.event |= BSDF_TRANSMIT;
         }
-#else
-        (void)u_lobe, (void)before;
 #endif
         if (alone) { /* nothing but one Lambert lobe */
             s.weight = b->diffuse;

@@ -129,14 +129,15 @@ TRIAD_FUNCTION Colour bsdf_eval(const Bsdf* b, Vec3 wo, Vec3 wi, float* pdf) {
     return f;
 }
 
-/* One sample: u_lobe picks the lobe, u the direction; all in [0, 1). */
-TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2 u) {
+/* One sample: u picks the lobe and the direction, u_through whether it goes through a boundary; all in
+ * [0, 1). */
+TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_through, Vec2 u) {
 #if !BSDF_LAYERED
-    return base_sample(&b->base, wo, u_lobe, u);
+    return base_sample(&b->base, wo, u_through, u);
 #else
     BsdfSample s;
-    if (u_lobe < b->p_base) {
-        s = base_sample(&b->base, wo, u_lobe / b->p_base, u);
+    if (sampling_choose(&u.x, b->p_base)) {
+        s = base_sample(&b->base, wo, u_through, u);
         if (b->p_base == 1.0f || s.event == BSDF_NONE) return s;
         if (s.event & BSDF_DELTA) {
             s.weight = colour_scale(s.weight, b->base_weight / b->p_base);
@@ -147,9 +148,9 @@ TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_lobe, Vec2
         s.weight = colour_splat(0.0f);
         s.pdf = 0.0f;
 #if TRIAD_CLEARCOAT && TRIAD_SHEEN
-        uint coat = u_lobe - b->p_base >= b->p_sheen;
+        const uint coat = !sampling_choose(&u.x, b->p_sheen / (1.0f - b->p_base));
 #else
-        uint coat = TRIAD_CLEARCOAT;
+        const uint coat = TRIAD_CLEARCOAT;
 #endif
 #if TRIAD_CLEARCOAT
         if (coat) s.wi = coat_sample(&b->coat, wo, u);

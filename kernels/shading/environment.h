@@ -24,10 +24,9 @@ TRIAD_FUNCTION uint cdf_below(global const uint* bounds, uint u) {
 #endif
 }
 
-/* The interval of a tree (CdfShape) that holds u; where in it, in [0, 1), and its probability. */
-TRIAD_FUNCTION uint cdf_find(global const CdfShape* shape, global const uint* tree, uint u, float* fraction,
-                             float* probability) {
-    u = u == 0xffffffffu ? 0xfffffffeu : u;
+/* The interval of a tree (CdfShape) that holds u, below 2^32 - 1, and its bounds. */
+TRIAD_FUNCTION uint cdf_search(global const CdfShape* shape, global const uint* tree, uint u, uint* lo,
+                               uint* hi) {
     const uint levels = shape->levels;
     uint i = 0u;
     uint first = 0u;
@@ -35,7 +34,16 @@ TRIAD_FUNCTION uint cdf_find(global const CdfShape* shape, global const uint* tr
         first = shape->first[level];
         i = 8u * i + cdf_below(tree + first + 8u * i, u);
     }
-    const uint lo = tree[first + i], hi = tree[first + i + 1u];
+    *lo = tree[first + i], *hi = tree[first + i + 1u];
+    return i;
+}
+
+/* The interval of a tree that holds u; where in it, in [0, 1), and its probability. */
+TRIAD_FUNCTION uint cdf_find(global const CdfShape* shape, global const uint* tree, uint u, float* fraction,
+                             float* probability) {
+    uint lo, hi;
+    u = u == 0xffffffffu ? 0xfffffffeu : u;
+    const uint i = cdf_search(shape, tree, u, &lo, &hi);
     const float width = (float)(hi - lo);
     const float f = ((float)(u - lo) + 0.5f) / width;
     *fraction = f < 0x1.fffffep-1f ? f : 0x1.fffffep-1f;

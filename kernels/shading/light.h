@@ -11,6 +11,9 @@
 #include "shading/near_light.h"
 #include "shading/surface.h"
 
+/* No light but a map: then nothing is picked. */
+#define LIGHT_MAP_ALONE (!TRIAD_TRIANGLE_LIGHTS && !TRIAD_PUNCTUAL_LIGHTS)
+
 typedef struct LightSample {
     Vec3 direction; /* unit, towards the light */
     Vec3 target;    /* point on the light, when `distant` is 0 */
@@ -27,7 +30,8 @@ typedef struct LightSample {
 /* How a triangle light is drawn: its solid angle over the probability of its pick; below 0: by its area, that
  * over the probability, negated. */
 TRIAD_FUNCTION float light_extent(const Light* light, float angle) {
-    return angle > 0.0f ? angle / light->pick : -light->area_per_pick;
+    const float extent = math_min((angle > 0.0f ? angle : light->area) * light->inverse_pick, 3e38f);
+    return angle > 0.0f ? extent : -extent;
 }
 
 /* 1 / density in solid angle of a point drawn so, seen from a point at `distance2` (squared). `cosine` is the
@@ -103,7 +107,7 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, Vec3 p, LightSample
     s->inverse_pdf = 0.0f;
     if (light->type == LIGHT_DIRECTIONAL) {
         s->direction = vec3_negate(axis);
-        s->weight = vec3_scale(colour, 1.0f / light->pick);
+        s->weight = vec3_scale(colour, light->inverse_pick);
         s->distant = 1;
         return 1;
     }
@@ -123,26 +127,24 @@ TRIAD_FUNCTION int light_sample_punctual(const Light* light, Vec3 p, LightSample
             math_clamp(fma(-vec3_dot(axis, s->direction), light->cone_scale, light->cone_offset), 0.0f, 1.0f);
         attenuation *= cone * cone;
     }
-    s->weight = vec3_scale(colour, attenuation / light->pick);
+    s->weight = vec3_scale(colour, attenuation * light->inverse_pick);
     return attenuation > 0.0f;
 }
 #endif
 
 /* Which Light, or TRIAD_NONE: none is seen. probability: of this pick; below 0: the light's share of the
- * power.
- */
+ * power. within: in [0, 1), uniform again: where in the light's share the number lies that picked it. */
 typedef struct LightPick {
     uint light;
     float probability;
+    float within;
 } LightPick;
 
 TRIAD_FUNCTION Light light_picked(const Scene* scene, LightPick pick) {
     Light light = scene->lights[pick.light];
 #if TRIAD_LIGHT_TREE
-    if (pick.probability >= 0.0f) {
-        light.pick = pick.probability;
-        light.area_per_pick = pick.probability > 0.0f ? light.area / pick.probability : 3e38f;
-    }
+    if (pick.probability >= 0.0f)
+        light.inverse_pick = pick.probability > 0.0f ? 1.0f / pick.probability : LIGHT_UNPICKED;
 #endif
     return light;
 }
@@ -151,7 +153,7 @@ TRIAD_FUNCTION Light light_picked(const Scene* scene, LightPick pick) {
 /* light_extent() of a triangle light that a path from the receiver has hit, as light sampling would have
  * picked and drawn it. */
 TRIAD_FUNCTION float light_found(const Scene* scene, Receiver receiver, uint index) {
-    LightPick pick = {index, -1.0f};
+    LightPick pick = {index, -1.0f, 0.0f};
     float angle = 0.0f;
 #if TRIAD_NEAR_LIGHTS
     global const Light* l = scene->lights + index;
@@ -170,22 +172,29 @@ TRIAD_FUNCTION float light_found(const Scene* scene, Receiver receiver, uint ind
 
 /* The light that the uniform 32-bit integer `number` picks for a receiver. */
 TRIAD_FUNCTION LightPick light_pick(const Scene* scene, Receiver receiver, uint number) {
-    LightPick pick = {0u, -1.0f};
-    float unused;
+    LightPick pick = {0u, -1.0f, 0.0f};
+#if !LIGHT_MAP_ALONE
 #if TRIAD_LIGHT_TREE
     const uint rest = (number >> 1) - scene->frame->light_first;
     if (rest < scene->frame->light_range) {
-        pick.light = light_tree_pick(scene, &receiver, rest, &pick.probability);
+        pick.light = light_tree_pick(scene, &receiver, rest, &pick.probability, &pick.within);
         return pick;
     }
-#else
-    (void)receiver;
 #endif
-    pick.light = cdf_find(&scene->frame->lights, scene->light_cdf, number, &unused, &unused);
+    uint first, unused;
+    number = number == 0xffffffffu ? 0xfffffffeu : number;
+    pick.light = cdf_search(&scene->frame->lights, scene->light_cdf, number, &first, &unused);
+    const float within = (float)(number - first) * (0x1p-32f * scene->lights[pick.light].inverse_pick);
+    pick.within = math_min(within, 0x1.fffffep-1f);
+#else
+    (void)scene, (void)number;
+#endif
+    (void)receiver;
     return pick;
 }
 
-/* Draws a direction to a light by `u`, uniform 32-bit integers. 0 when nothing arrives. */
+/* Draws a direction to a light by `u`, the uniform 32-bit integers of which the first has picked it. 0 when
+ * nothing arrives. */
 TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Receiver receiver, UVec2 u,
                                        LightSample* s) {
     if (pick.light == TRIAD_NONE) return 0;
@@ -194,7 +203,8 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
     s->light = pick.light;
     s->flags = light.flags;
 #if TRIAD_TRIANGLE_LIGHTS
-    if (light.type == LIGHT_TRIANGLE) return light_sample_triangle(scene, &light, p, random_point(u), s);
+    if (light.type == LIGHT_TRIANGLE)
+        return light_sample_triangle(scene, &light, p, vec2_make(pick.within, random_float(u.y)), s);
 #endif
 #if TRIAD_PUNCTUAL_LIGHTS
     if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT || light.type == LIGHT_DIRECTIONAL)
@@ -205,9 +215,12 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
         const Environment e = scene->frame->environment;
         s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
         UVec2 numbers = u;
+#if !LIGHT_MAP_ALONE
+        numbers.x = (uint)(pick.within * 0x1p32f);
+#endif
         if (receiver.facing != 0u) {
             float factor;
-            numbers = facing_warp(scene, receiver.facing, u, &factor);
+            numbers = facing_warp(scene, receiver.facing, numbers, &factor);
             s->inverse_pdf *= factor;
         }
         s->direction = environment_sample(scene, &e, numbers, &s->uv);
@@ -220,8 +233,9 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
     return 0;
 }
 
-TRIAD_FUNCTION int light_sample(const Scene* scene, Receiver receiver, uint number, UVec2 u, LightSample* s) {
-    return light_sample_picked(scene, light_pick(scene, receiver, number), receiver, u, s);
+/* Draws a light and a direction to it by uniform 32-bit integers. */
+TRIAD_FUNCTION int light_sample(const Scene* scene, Receiver receiver, UVec2 u, LightSample* s) {
+    return light_sample_picked(scene, light_pick(scene, receiver, u.x), receiver, u, s);
 }
 
 /* The second half of light_sample, for directions that nothing stands in the way of: maps are looked up here.

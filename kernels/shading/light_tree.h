@@ -120,10 +120,11 @@ TRIAD_FUNCTION int light_shares_refine(uint* range) {
     return 1;
 }
 
-/* The light that the number `rest`, uniform below frame->light_range, picks for a receiver, and with what
- * probability it does. TRIAD_NONE: none is seen from there. */
+/* The light that the number `rest`, uniform below frame->light_range, picks for a receiver, with what
+ * probability it does, and where in the light's share the number lies, in [0, 1). TRIAD_NONE: none is seen
+ * from there. */
 TRIAD_FUNCTION uint light_tree_pick(const Scene* scene, const Receiver* receiver, uint rest,
-                                    float* probability) {
+                                    float* probability, float* within) {
     uint range = scene->frame->light_range, more = rest, content = 0u;
     *probability = (float)range * 0x1p-31f;
     do {
@@ -143,6 +144,8 @@ TRIAD_FUNCTION uint light_tree_pick(const Scene* scene, const Receiver* receiver
         range = part;
         content = node->content[child];
     } while (!(content & LIGHT_NODE_LEAF));
+    /* the share of an unlikely light is few numbers wide */
+    *within = math_min(((float)rest + random_float(random_mix(more))) / (float)range, 0x1.fffffep-1f);
     return content & ~LIGHT_NODE_LEAF;
 }
 

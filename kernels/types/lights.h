@@ -39,6 +39,8 @@ TRIAD_SIZE(Spectrum, 6260);
     0x100u /* photons bring what mirrors and glass throw of this light onto other surfaces */
 #define LIGHT_SPECTRUM_SHIFT 16 /* flags above: which Spectrum; 0: D65, or a colour that says it all */
 
+#define LIGHT_UNPICKED 3e38f
+
 /* colour: radiance factor of a triangle (texture not included), intensity W/sr of point and spot, irradiance
  * of directional. Emissive geometry is always flattened, so positions are in rebased world space. */
 typedef struct Light {
@@ -56,7 +58,7 @@ typedef struct Light {
     float axis[3]; /* unit; TRIANGLE: normal of the front; SPOT, DIRECTIONAL: where the light goes */
     uint flags;    /* MATERIAL_DOUBLE_SIDED of the triangle's material; LIGHT_PHOTONS; LIGHT_SPECTRUM_SHIFT */
     float colour[3];
-    float area_per_pick; /* TRIANGLE: area / pick */
+    float inverse_pick; /* 1 / pick, or LIGHT_UNPICKED */
 } Light;
 TRIAD_SIZE(Light, 96);
 

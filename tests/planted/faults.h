@@ -66,6 +66,13 @@ inline const Fault faults[] = {
     {"cones_by_a_difference_of_cosines", "common/sampling.h", "sin2 / (1.0f + math_sqrt(1.0f - sin2))",
      "1.0f - math_sqrt(1.0f - sin2)", "C13"},
     {"film_through_32_bits", "common/film.h", "return (long)(", "return (int)(", "C17b"},
+    {"map_drawn_by_the_number_that_picked_it", "shading/light.h",
+     "facing_warp(scene, receiver.facing, numbers, &factor)",
+     "facing_warp(scene, receiver.facing, u, &factor)", "C16h"},
+    {"light_drawn_by_the_number_that_picked_it", "shading/light.h",
+     "vec2_make(pick.within, random_float(u.y))", "random_point(u)", "D2"},
+    {"lobe_drawn_by_the_number_that_chose_it", "common/sampling.h", "*u = math_min(within, 0x1.fffffep-1f);",
+     ";", "C11c"},
     // Of the material's extensions.
     {"sheen_brighter_than_its_light", "shading/sheen.h", "s->scale * d / (4.0f", "d / (4.0f", "F12"},
     {"sheen_that_dims_nothing_below", "shading/bsdf.h",
