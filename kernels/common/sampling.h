@@ -10,10 +10,11 @@ TRIAD_FUNCTION Vec2 sampling_disc(Vec2 u) {
     float a = fma(2.0f, u.x, -1.0f), b = fma(2.0f, u.y, -1.0f);
     if (a == 0.0f && b == 0.0f) return vec2_make(0.0f, 0.0f);
     uint steep = fabs(b) > fabs(a);
-    float r = steep ? b : a;
+    float r = steep ? b : a, other = steep ? a : b;
     float s, c;
-    math_sincos_octant(0.785398163f * (steep ? a / b : b / a), &s, &c);
-    return steep ? vec2_make(r * s, r * c) : vec2_make(r * c, r * s);
+    math_sincos_octant(0.785398163f * (other / r), &s, &c);
+    s *= r, c *= r;
+    return vec2_make(steep ? s : c, steep ? c : s);
 }
 
 /* Hemisphere about +z with pdf z / pi. z > 0. */

@@ -17,11 +17,10 @@ TRIAD_FUNCTION uint facing_of(Vec3 n) {
     const float length = fabs(n.x) + fabs(n.y) + fabs(n.z), scale = 1.0f / length;
     if (length == 0.0f) return 0u;
     float a = n.x * scale, b = n.z * scale;
-    if (n.y < 0.0f) {
-        const float c = 1.0f - fabs(b), d = 1.0f - fabs(a);
-        a = a < 0.0f ? -c : c;
-        b = b < 0.0f ? -d : d;
-    }
+    const float c = 1.0f - fabs(b), d = 1.0f - fabs(a);
+    const uint below = n.y < 0.0f;
+    a = below ? (a < 0.0f ? -c : c) : a;
+    b = below ? (b < 0.0f ? -d : d) : b;
     /* NaN is the last cell */
     const uint i = (uint)math_min(fma(a, 0.5f * FACINGS, 0.5f * FACINGS), FACINGS - 0.5f);
     return 1u + FACINGS * i + (uint)math_min(fma(b, 0.5f * FACINGS, 0.5f * FACINGS), FACINGS - 0.5f);
