@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -21,6 +23,16 @@ namespace triad {
 namespace {
 
 constexpr const char* parent_variable = "TRIAD_PARENT";
+
+/// What kill() is to be told of those that run; 0: a free place. Of more than these the rest is not killed
+/// before a new life.
+std::array<std::atomic<pid_t>, 32> running{};
+static_assert(std::atomic<pid_t>::is_always_lock_free, "a signal handler reads them");
+
+void replace_running(pid_t before, pid_t after) {
+    for (std::atomic<pid_t>& place : running)
+        if (pid_t expected = before; place.compare_exchange_strong(expected, after)) return;
+}
 
 /// `environ` with these changes, as "NAME=VALUE".
 std::vector<std::string> environment_with(const std::map<std::string, std::string>& changes) {
@@ -69,7 +81,9 @@ RunningChild::RunningChild(const Child& child) : process_(start(child)), has_gro
     latest_ = child.seconds > 0 ? Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                                      std::chrono::duration<double>(child.seconds))
                                 : Clock::time_point::max();
-    if (process_) end_.emplace();
+    if (!process_) return;
+    end_.emplace();
+    replace_running(0, target());
 }
 
 RunningChild::~RunningChild() {
@@ -78,7 +92,8 @@ RunningChild::~RunningChild() {
     wait();
 }
 
-void RunningChild::kill_group() { ::kill(has_group_ ? -*process_ : *process_, SIGKILL); }
+pid_t RunningChild::target() const { return has_group_ ? -*process_ : *process_; }
+void RunningChild::kill_group() { ::kill(target(), SIGKILL); }
 
 bool RunningChild::has_ended() {
     if (!process_) return true;
@@ -88,6 +103,7 @@ bool RunningChild::has_ended() {
         if (!end_->late && std::chrono::steady_clock::now() >= latest_) end_->late = true, kill_group();
         return false;
     }
+    replace_running(target(), 0);
     process_.reset();
     if (done < 0) end_.reset();
     if (done > 0 && WIFEXITED(status)) end_->exit = WEXITSTATUS(status);
@@ -100,6 +116,11 @@ std::optional<ChildEnd> RunningChild::wait() {
          pause = std::min(pause * 2, std::chrono::milliseconds(20)))
         std::this_thread::sleep_for(pause);
     return end_;
+}
+
+void kill_running_children() {
+    for (const std::atomic<pid_t>& place : running)
+        if (const pid_t target = place.load()) ::kill(target, SIGKILL);
 }
 
 std::optional<ChildEnd> run_child(const Child& child) { return RunningChild(child).wait(); }

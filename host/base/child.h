@@ -45,8 +45,12 @@ class RunningChild {
     bool has_group_ = false;
     std::chrono::steady_clock::time_point latest_;
 
+    pid_t target() const;  ///< that kill() is told of: the group, where it has one
     void kill_group();
 };
+
+/// Ends all that run, for a signal handler before the process begins a new life, which knows of none.
+void kill_running_children();
 
 /// Runs it and waits. Nothing when there is no such program.
 std::optional<ChildEnd> run_child(const Child& child);

@@ -13,6 +13,8 @@
 #include <memory>
 #include <mutex>
 
+#include "base/child.h"
+
 extern char** environ;
 
 namespace triad {
@@ -57,6 +59,7 @@ void start_again(const char* cause) {
     std::size_t n = 0;
     for (; cause[n] && n + 1 < cause_room; ++n) next->cause[n] = cause[n];
     next->cause[n] = '\0';
+    kill_running_children();
     ::pthread_sigmask(SIG_SETMASK, &first_mask, nullptr);
     ::syscall(SYS_close_range, first_own_file, ~0u, 4u /* CLOSE_RANGE_CLOEXEC */);  // a driver's own files
     ::execve("/proc/self/exe", arguments, next->environment.data());

@@ -1,7 +1,8 @@
 #pragma once
 /// A program that outlives the libraries that it calls. While a Peril exists, a crash, an abort or an exit()
 /// does not end the program but starts it again from its beginning, in the same process, and what the Peril
-/// says is then among the earlier deaths. Nothing is paid for this until it happens.
+/// says is then among the earlier deaths. What it ran beside itself (RunningChild) ends with the old life.
+/// Nothing is paid for this until it happens.
 #include <string>
 #include <vector>
 

@@ -100,7 +100,7 @@ void lambert_to_the_bit(Check& check) {
                          .roughness = (i % 7) / 6.0f,
                          .specular = 0,
                          .mu = 0.01f + (i % 90) * 0.011f,
-                         .u_lobe = (i % 64) / 64.0f,
+                         .u_through = (i % 64) / 64.0f,
                          .u = (i % 61) / 61.0f,
                          .v = (i % 59) / 59.0f});
     const auto general = once(check, cases), lambert = once(check, cases, {{"TRIAD_SPECULAR", "0"}});
@@ -148,7 +148,7 @@ void thin_wall_is_a_slab(Check& check) {
                                      .ior = row.ior,
                                      .transmission = 1,
                                      .mu = 0.6f,
-                                     .u_lobe = 0.9999f}});
+                                     .u_through = 0.9999f}});
         check.equal(w[0][0], -0.8f, "direction through a thin wall");
         check.equal(w[0][2], -0.6f, "direction through a thin wall");
     }
@@ -161,7 +161,7 @@ void smooth_body_refracts(Check& check) {
                      .transmission = 1,
                      .solid = 1,
                      .mu = float(std::cos(degrees * pi / 180)),
-                     .u_lobe = 0.99999f};
+                     .u_through = 0.99999f};
         const auto out = once(check, {c});
         const double sine = std::sin(degrees * pi / 180) / 1.5, r = interface_reflectance(degrees, 1.5);
         check.near(out[0][0], -sine, 1e-6, "sine of refraction at ", degrees);
@@ -178,7 +178,7 @@ void smooth_body_refracts(Check& check) {
     check.equal(total.transmitted, 0, "light beyond the critical angle");
     check.near(total.r, 1, 1e-6, "total reflection");
     const auto same = once(
-        check, {{.roughness = 0.7f, .ior = 1, .transmission = 1, .solid = 1, .mu = 0.6f, .u_lobe = 0.3f}});
+        check, {{.roughness = 0.7f, .ior = 1, .transmission = 1, .solid = 1, .mu = 0.6f, .u_through = 0.3f}});
     check.equal((Four{same[0][0], same[0][1], same[0][2], same[1][0]}), (Four{-0.8f, 0, -0.6f, 1}),
                 "passing an index of 1");
 }
@@ -217,10 +217,11 @@ void hostile_input(Check& check) {
                 c.transmission = (k / 3 % 3) / 2.0f, c.solid = float(k / 9 % 2), c.inside = float(k / 18 % 2);
                 c.ior = std::array{0.0f, 1.0f, 1.5f}[k / 36 % 3],
                 c.base[0] = c.base[1] = c.base[2] = float(k / 108);
-                for (int u = 0; u < 8; ++u) {
-                    c.u_lobe = u & 1 ? end : 0, c.u = u & 2 ? end : 0.5f, c.v = u & 4 ? end : 0;
-                    cases.push_back(c);
-                }
+                for (const float u : {0.0f, 0.5f, end})
+                    for (int ends = 0; ends < 4; ++ends) {
+                        c.u = u, c.u_through = ends & 1 ? end : 0, c.v = ends & 2 ? end : 0;
+                        cases.push_back(c);
+                    }
             }
     for (const Four& row : once(check, cases))
         for (float x : row) check.holds(std::isfinite(x), "not finite");

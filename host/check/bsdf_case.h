@@ -19,7 +19,7 @@ struct Case {
     float specular_colour[3] = {1, 1, 1};
     float transmission = 0, solid = 0, inside = 0;
     float mu = 1;
-    float u_lobe = 0, u = 0, v = 0;                     // used by `once`
+    float u_through = 0, u = 0, v = 0;                  // used by `once`
     float coat = 0, coat_roughness = 0, coat_tilt = 0;  // radians from z towards x
     float sheen = 0, sheen_roughness = 0.5f;            // white
     float anisotropy = 0, azimuth = 0;                  // of wo, in turns
@@ -31,7 +31,7 @@ static_assert(sizeof(Case) == 112);
 inline const char* const source = R"(#include "common/random.h"
 #include "shading/bsdf.h"
 typedef struct Case {
-    float base[3], metallic, roughness, ior, specular, specular_colour[3], transmission, solid, inside, mu, u_lobe, u, v,
+    float base[3], metallic, roughness, ior, specular, specular_colour[3], transmission, solid, inside, mu, u_through, u, v,
         coat, coat_roughness, coat_tilt, sheen, sheen_roughness, anisotropy, azimuth, film, film_ior, film_thickness, through;
 } Case;
 TRIAD_FUNCTION BsdfInput input_of(const global Case* c, global const float* tables) {
@@ -142,9 +142,9 @@ __kernel void once(__global Vec4* out, __global const Case* cases, __global cons
     if (i >= count) return;
     Bsdf b;
     const Vec3 wo = make(cases + i, &b, tables);
-    const BsdfSample a = bsdf_sample(&b, wo, cases[i].u_lobe, vec2_make(cases[i].u, cases[i].v));
+    const BsdfSample a = bsdf_sample(&b, wo, cases[i].u_through, vec2_make(cases[i].u, cases[i].v));
     float pdf;
-    const Vec3 f = bsdf_eval(&b, wo, vec3_normalize(vec3_make(cases[i].v - 0.5f, cases[i].u - 0.5f, 0.1f + cases[i].u_lobe)), &pdf);
+    const Vec3 f = bsdf_eval(&b, wo, vec3_normalize(vec3_make(cases[i].v - 0.5f, cases[i].u - 0.5f, 0.1f + cases[i].u_through)), &pdf);
     out[3 * i] = vec3_with(a.wi, a.pdf);
     out[3 * i + 1] = vec3_with(a.weight, (float)a.event);
     out[3 * i + 2] = vec3_with(f, pdf);
@@ -181,7 +181,7 @@ inline std::vector<Case> many_cases(const Check& check) {
                          .metallic = (i % 3) / 2.0f,
                          .roughness = (i % 12) / 11.0f,
                          .mu = 0.01f + (i % 90) * 0.011f,
-                         .u_lobe = (i % 64) / 64.0f,
+                         .u_through = (i % 64) / 64.0f,
                          .u = (i % 61) / 61.0f,
                          .v = (i % 59) / 59.0f});
     return cases;

@@ -216,7 +216,7 @@ void factors_fade_to_none(Check& check) {
             Case c = row.c;
             std::copy_n(plain.base, 3, c.base);
             c.metallic = plain.metallic, c.roughness = plain.roughness, c.mu = plain.mu;
-            c.u_lobe = plain.u_lobe, c.u = plain.u, c.v = plain.v;
+            c.u_through = plain.u_through, c.u = plain.u, c.v = plain.v;
             with.push_back(c), without.push_back(plain);
         }
         const auto a = once(check, with), b = once(check, without);

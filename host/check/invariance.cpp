@@ -76,6 +76,10 @@ void specialised_or_general(Check& check) {
     plain.environment.reset();
     plain.sky = vec3(1.0f);
     scenes.push_back({"lambert under a sky", plain});
+    Scene mapped = plain;
+    mapped.environment = varied_scene().environment;
+    check.holds(mapped.environment.has_value(), "a scene has a map");
+    scenes.push_back({"a map alone", mapped});
     Scene opaque = varied_scene();
     for (Material& m : opaque.materials) m.transmission = 0, m.alpha_mode = AlphaMode::opaque;
     scenes.push_back({"no transmission, no alpha", opaque});

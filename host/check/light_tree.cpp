@@ -1,6 +1,7 @@
 // The tree over many lights: what it picks, with which probability, and that nothing of the light is lost.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -78,20 +79,22 @@ void picks_have_their_probability(Check& check) {
                                    lights);
             const auto drawn = draw(check, packed, receiver, R"(
     const LightPick picked = light_pick(&scene, receiver, pick);
-    w = vec4_make(picked.light != TRIAD_NONE ? (float)picked.light : -1.0f, picked.probability, 0.0f, 0.0f);
+    w = vec4_make(picked.light != TRIAD_NONE ? (float)picked.light : -1.0f, picked.probability, picked.within, 0.0f);
 )",
                                     count);
             double total = 0;
             for (const auto& p : said) total += p[0];
             check.at_most(total, 1 + 2e-4, "sum of the probabilities, ", spread.name);
             // The last is a way that ends without a light: bounds promised more than there was.
-            std::vector<double> counts(lights + 1), expected(lights + 1);
+            std::vector<double> counts(lights + 1), expected(lights + 1), within(16);
             for (const auto& d : drawn) {
                 check.holds(d[0] >= -1 && d[0] < float(lights), "light ", d[0], ", ", spread.name);
                 if (d[0] == -1) counts[lights] += 1;
                 if (!(d[0] >= 0 && d[0] < float(lights))) continue;
                 const std::size_t i = std::size_t(d[0]);
                 counts[i] += 1;
+                check.holds(d[2] >= 0 && d[2] < 1, "where in the light's share: ", d[2]);
+                if (d[2] >= 0 && d[2] < 1) within[std::size_t(d[2] * 16)] += 1;
                 check.also_at_most(std::abs(d[1] / said[i][0] - 1), 1e-5, "probability of a pick, ",
                                    spread.name);
             }
@@ -99,6 +102,9 @@ void picks_have_their_probability(Check& check) {
             expected[lights] = std::max(1 - total, 0.0) * double(count);
             check.at_most(chi_square_z(counts, expected), chi_square_limit, "chi-square of picks, ",
                           spread.name);
+            const double picked = std::accumulate(within.begin(), within.end(), 0.0);
+            check.at_most(chi_square_z(within, std::vector<double>(16, picked / 16)), chi_square_limit,
+                          "chi-square of places in the lights' shares, ", spread.name);
         }
 }
 

@@ -1,4 +1,5 @@
 // Frames and the maps from the unit square to the shapes that are sampled.
+#include <cmath>
 #include <functional>
 #include <random>
 
@@ -144,6 +145,37 @@ __kernel void omega(__global float* out, __global const float* r, uint count) {
     }
 }
 
+void numbers_that_have_chosen(Check& check) {
+    const char* const source = R"(#include "common/sampling.h"
+__kernel void choose(__global Vec2* out, __global const Vec2* cases, uint count) {
+    const uint i = get_global_id(0);
+    if (i >= count) return;
+    float u = cases[i].x;
+    const uint chosen = sampling_choose(&u, cases[i].y);
+    out[i] = vec2_make((float)chosen, u);
+}
+)";
+    using Two = std::array<float, 2>;
+    const float end = 1 - 0x1p-24f;
+    std::vector<Two> cases;  // number, probability
+    for (const float p : {0.0f, 1e-6f, 0.04f, 0.5f, 0.7f, end, 1.0f}) {
+        std::vector<float> numbers{0.0f, 0.3f, end};
+        for (int beside = -1; beside <= 2; ++beside)  // numbers have 24 bits
+            numbers.push_back((std::floor(p * 0x1p24f) + float(beside)) * 0x1p-24f);
+        for (const float u : numbers)
+            if (u >= 0 && u < 1) cases.push_back({u, p});
+    }
+    const auto found = run_kernel<Two>(check.device, source, "choose",
+                                       Arguments().add(check.device.upload(cases)), cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const auto [u, p] = cases[i];
+        const double within = u < p ? double(u) / p : (double(u) - p) / (1.0 - p);
+        check.equal(found[i][0], u < p ? 1.0f : 0.0f, "choice of ", u, " at ", p);
+        check.holds(found[i][1] >= 0 && found[i][1] < 1, "no number below 1 is left of ", u, " at ", p);
+        check.near(found[i][1], within, p == 0 || p == 1 ? 0.0 : 1e-6, "what is left of ", u, " at ", p);
+    }
+}
+
 }  // namespace
 
 void add_sampling(std::vector<CheckCase>& cases) {
@@ -157,6 +189,7 @@ void add_sampling(std::vector<CheckCase>& cases) {
                      {"S3", "chi-square of the triangle", quick, triangle_is_uniform},
                      {"S4", "chi-square of the sphere", standard, sphere_is_uniform},
                      {"S5", "chi-square of cones", standard, cones_are_uniform},
+                     {"S9", "numbers that have chosen", quick, numbers_that_have_chosen},
                  });
 }
 

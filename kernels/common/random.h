@@ -10,7 +10,7 @@
  *
  * The plan of the path tracer: block 0 is pixel, lens, (wavelength, time), spare; block b, for the b-th
  * vertex of the path, is (lobe and direction of the BSDF), (through a boundary, roulette), (light and point
- * on it), spare.
+ * on it), spare (of photons: landing).
  */
 #ifndef TRIAD_COMMON_RANDOM_H
 #define TRIAD_COMMON_RANDOM_H

@@ -70,7 +70,7 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
     const Surface* s = &vertex->surface;
     LightSample light;
     if (!bsdf_has_smooth(&v->bsdf) ||
-        !light_sample_picked(scene, pick, path_receiver(path, s->position), u->set[2], &light))
+        !light_sample_picked(scene, pick, path_receiver(path, s->position), u->set[2].y, &light))
         return 0;
     const float side = vec3_dot(light.direction, vertex->ng);
     const Vec3 wi = frame_to_local(&v->frame, light.direction);

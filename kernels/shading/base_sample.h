@@ -113,9 +113,10 @@ TRIAD_FUNCTION_PER_CALL Colour base_eval(const BaseBsdf* b, Vec3 wo, Vec3 wi, fl
     return f;
 }
 
-/* One sample: u picks the lobe and the direction, u_through whether it goes through a boundary; all in
+/* One sample: `numbers` pick the lobe and the direction, u_through whether it goes through a boundary; all in
  * [0, 1). */
-TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_through, Vec2 u) {
+TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_through, Vec2 numbers) {
+    Vec2 u = numbers;
     BsdfSample s;
     (void)u_through;
     s.wi = vec3_make(0.0f, 0.0f, 1.0f);

@@ -129,12 +129,13 @@ TRIAD_FUNCTION Colour bsdf_eval(const Bsdf* b, Vec3 wo, Vec3 wi, float* pdf) {
     return f;
 }
 
-/* One sample: u picks the lobe and the direction, u_through whether it goes through a boundary; all in
+/* One sample: `numbers` pick the lobe and the direction, u_through whether it goes through a boundary; all in
  * [0, 1). */
-TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_through, Vec2 u) {
+TRIAD_FUNCTION BsdfSample bsdf_sample(const Bsdf* b, Vec3 wo, float u_through, Vec2 numbers) {
 #if !BSDF_LAYERED
-    return base_sample(&b->base, wo, u_through, u);
+    return base_sample(&b->base, wo, u_through, numbers);
 #else
+    Vec2 u = numbers;
     BsdfSample s;
     if (sampling_choose(&u.x, b->p_base)) {
         s = base_sample(&b->base, wo, u_through, u);

@@ -28,7 +28,7 @@ typedef struct LightSample {
 
 #if TRIAD_TRIANGLE_LIGHTS
 /* How a triangle light is drawn: its solid angle over the probability of its pick; below 0: by its area, that
- * over the probability, negated. */
+ * over the probability, negated. Finite for a light that is never picked, too. */
 TRIAD_FUNCTION float light_extent(const Light* light, float angle) {
     const float extent = math_min((angle > 0.0f ? angle : light->area) * light->inverse_pick, 3e38f);
     return angle > 0.0f ? extent : -extent;
@@ -185,26 +185,28 @@ TRIAD_FUNCTION LightPick light_pick(const Scene* scene, Receiver receiver, uint 
     number = number == 0xffffffffu ? 0xfffffffeu : number;
     pick.light = cdf_search(&scene->frame->lights, scene->light_cdf, number, &first, &unused);
     const float within = (float)(number - first) * (0x1p-32f * scene->lights[pick.light].inverse_pick);
-    pick.within = math_min(within, 0x1.fffffep-1f);
 #else
-    (void)scene, (void)number;
+    const float within = (float)number * 0x1p-32f;
+    (void)scene;
 #endif
+    pick.within = math_min(within, 0x1.fffffep-1f);
     (void)receiver;
     return pick;
 }
 
-/* Draws a direction to a light by `u`, the uniform 32-bit integers of which the first has picked it. 0 when
- * nothing arrives. */
-TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Receiver receiver, UVec2 u,
+/* Draws a direction to a light by what the pick has left of its number and by v, a uniform 32-bit integer. 0
+ * when nothing arrives. */
+TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Receiver receiver, uint v,
                                        LightSample* s) {
     if (pick.light == TRIAD_NONE) return 0;
+    (void)v;
     const Vec3 p = receiver.position;
     const Light light = light_picked(scene, pick);
     s->light = pick.light;
     s->flags = light.flags;
 #if TRIAD_TRIANGLE_LIGHTS
     if (light.type == LIGHT_TRIANGLE)
-        return light_sample_triangle(scene, &light, p, vec2_make(pick.within, random_float(u.y)), s);
+        return light_sample_triangle(scene, &light, p, vec2_make(pick.within, random_float(v)), s);
 #endif
 #if TRIAD_PUNCTUAL_LIGHTS
     if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT || light.type == LIGHT_DIRECTIONAL)
@@ -214,9 +216,10 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
     if (light.type == LIGHT_ENVIRONMENT) {
         const Environment e = scene->frame->environment;
         s->inverse_pdf = light.pick; /* until light_complete() knows the density of the map */
-        UVec2 numbers = u;
+        UVec2 numbers = uvec2_make((uint)(pick.within * 0x1p32f), v);
 #if !LIGHT_MAP_ALONE
-        numbers.x = (uint)(pick.within * 0x1p32f);
+        /* a hash below: columns have finer shares than the numbers of an unlikely map */
+        numbers.x += (uint)(random_float(random_mix(as_uint(pick.within))) * light.inverse_pick);
 #endif
         if (receiver.facing != 0u) {
             float factor;
@@ -235,7 +238,7 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
 
 /* Draws a light and a direction to it by uniform 32-bit integers. */
 TRIAD_FUNCTION int light_sample(const Scene* scene, Receiver receiver, UVec2 u, LightSample* s) {
-    return light_sample_picked(scene, light_pick(scene, receiver, u.x), receiver, u, s);
+    return light_sample_picked(scene, light_pick(scene, receiver, u.x), receiver, u.y, s);
 }
 
 /* The second half of light_sample, for directions that nothing stands in the way of: maps are looked up here.

@@ -6,10 +6,12 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <thread>
 
+#include "base/restart.h"
 #include "unit/temporary_folder.h"
 
 using namespace triad;
@@ -82,4 +84,35 @@ TEST(Child, runs_beside_and_is_killed_with_all_that_it_started_when_it_is_not_wa
     EXPECT_EQ(quick.wait()->exit, 4);
     EXPECT_TRUE(quick.has_ended());
     EXPECT_EQ(quick.wait()->exit, 4) << "asked once more";
+}
+
+/// Run by the next test, as a program of its own that starts again.
+TEST(Child, DISABLED_of_a_life_that_ends) {
+    const char* pid_file = std::getenv("TRIAD_TEST_PID_FILE");
+    ASSERT_TRUE(pid_file);
+    static std::string program = "/proc/self/exe",
+                       filter = "--gtest_filter=Child.DISABLED_of_a_life_that_ends",
+                       disabled = "--gtest_also_run_disabled_tests";
+    static char* arguments[] = {program.data(), filter.data(), disabled.data(), nullptr};
+    allow_restarts(arguments);
+    if (!earlier_deaths().empty()) return;
+    Child slow = shell("echo $$ > " + std::string(pid_file) + "; exec sleep 100");
+    slow.own_group = true;
+    const RunningChild running(slow);
+    ASSERT_GT(number_in(pid_file), 0);
+    const Peril peril("ends");
+    end_by_abort();
+}
+
+TEST(Child, ends_with_the_life_that_started_it) {
+    const TemporaryFolder folder;
+    const std::optional<ChildEnd> end =
+        run_child({.arguments = {"/proc/self/exe", "--gtest_filter=Child.DISABLED_of_a_life_that_ends",
+                                 "--gtest_also_run_disabled_tests"},
+                   .environment = {{"TRIAD_TEST_PID_FILE", (folder / "pid").string()}}});
+    ASSERT_TRUE(end);
+    EXPECT_EQ(end->exit, 0) << "signal " << end->signal;
+    const pid_t process = number_in(folder / "pid");
+    ASSERT_GT(process, 0);
+    EXPECT_TRUE(ends_soon(process));
 }
