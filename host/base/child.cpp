@@ -29,6 +29,8 @@ constexpr const char* parent_variable = "TRIAD_PARENT";
 std::array<std::atomic<pid_t>, 32> running{};
 static_assert(std::atomic<pid_t>::is_always_lock_free, "a signal handler reads them");
 
+std::atomic<bool> killed_for_new_life = false;
+
 void replace_running(pid_t before, pid_t after) {
     for (std::atomic<pid_t>& place : running)
         if (pid_t expected = before; place.compare_exchange_strong(expected, after)) return;
@@ -97,13 +99,17 @@ void RunningChild::kill_group() { ::kill(target(), SIGKILL); }
 
 bool RunningChild::has_ended() {
     if (!process_) return true;
+    // Its number is another process's once it has been waited for: kill_running_children() forgets it before.
+    siginfo_t ended{};
+    const int seen = ::waitid(P_PID, id_t(*process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (killed_for_new_life) return false;
+    if (seen < 0 ? errno == ECHILD : ended.si_pid != 0) replace_running(target(), 0);
     int status = 0;
     const pid_t done = ::waitpid(*process_, &status, WNOHANG);
     if (done == 0 || (done < 0 && errno == EINTR)) {
         if (!end_->late && std::chrono::steady_clock::now() >= latest_) end_->late = true, kill_group();
         return false;
     }
-    replace_running(target(), 0);
     process_.reset();
     if (done < 0) end_.reset();
     if (done > 0 && WIFEXITED(status)) end_->exit = WEXITSTATUS(status);
@@ -119,9 +125,12 @@ std::optional<ChildEnd> RunningChild::wait() {
 }
 
 void kill_running_children() {
+    killed_for_new_life = true;
     for (const std::atomic<pid_t>& place : running)
         if (const pid_t target = place.load()) ::kill(target, SIGKILL);
 }
+
+void forget_kill() { killed_for_new_life = false; }
 
 std::optional<ChildEnd> run_child(const Child& child) { return RunningChild(child).wait(); }
 

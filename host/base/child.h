@@ -49,8 +49,10 @@ class RunningChild {
     void kill_group();
 };
 
-/// Ends all that run, for a signal handler before the process begins a new life, which knows of none.
+/// Ends those that run, for a signal handler before the process begins a new life, which knows of none. From
+/// then on none is seen to have ended, until forget_kill().
 void kill_running_children();
+void forget_kill();  ///< there is no new life
 
 /// Runs it and waits. Nothing when there is no such program.
 std::optional<ChildEnd> run_child(const Child& child);

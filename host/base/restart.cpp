@@ -63,6 +63,7 @@ void start_again(const char* cause) {
     ::pthread_sigmask(SIG_SETMASK, &first_mask, nullptr);
     ::syscall(SYS_close_range, first_own_file, ~0u, 4u /* CLOSE_RANGE_CLOEXEC */);  // a driver's own files
     ::execve("/proc/self/exe", arguments, next->environment.data());
+    forget_kill();
     leaving = false;
 }
 

@@ -126,7 +126,8 @@ void a_map_beside_lamps(Check& check) {
     const unsigned w = 32, h = 16;
     EnvironmentMap map{w, h, std::vector<float>(w * h * 3)};
     for (unsigned i = 0; i < w * h; ++i)
-        for (int c = 0; c < 3; ++c) map.rgb[i * 3 + c] = 0.5f + float(i % w * 7 % 11) + float(i % w) / 4;
+        for (int c = 0; c < 3; ++c)
+            map.rgb[i * 3 + c] = 30 * (0.5f + float(i % w * 7 % 11) + float(i % w) / 4);
     const dvec3 n = glm::normalize(dvec3(0.3, 0.8, -0.5));
     for (const int lamps : {3, 40}) {
         Builder b;

@@ -219,7 +219,7 @@ TRIAD_FUNCTION int light_sample_picked(const Scene* scene, LightPick pick, Recei
         UVec2 numbers = uvec2_make((uint)(pick.within * 0x1p32f), v);
 #if !LIGHT_MAP_ALONE
         /* a hash below: columns have finer shares than the numbers of an unlikely map */
-        numbers.x += (uint)(random_float(random_mix(as_uint(pick.within))) * light.inverse_pick);
+        numbers.x += (uint)(random_float(random_mix(as_uint(pick.within) ^ v)) * light.inverse_pick);
 #endif
         if (receiver.facing != 0u) {
             float factor;
