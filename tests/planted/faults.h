@@ -39,7 +39,7 @@ inline const Fault faults[] = {
     {"missing_jacobian", "shading/base_sample.h", "eta * eta * -wi_h / l2", "1.0f", "C11c"},
     {"off_by_one_in_the_cdf", "shading/environment.h", "cdf_below(tree + first + 8u * i, u);",
      "cdf_below(tree + first + 8u * i, u) + (level + 1u == levels ? 1u : 0u);", "S6"},
-    {"facings_upside_down", "shading/facing.h", "b = b < 0.0f ? -d : d;", "b = b < 0.0f ? d : -d;", "C16g"},
+    {"facings_upside_down", "shading/facing.h", "(b < 0.0f ? -d : d)", "(b < 0.0f ? d : -d)", "C16g"},
     {"patches_of_the_row_before", "shading/facing.h", "rows + PATCHES + PATCHES * row;",
      "rows + PATCHES * row;", "C16g"},
     {"map_found_as_without_a_facing", "shading/facing.h", "if (facing != 0u && *pdf > 0.0f)", "if (0)", "E2"},
