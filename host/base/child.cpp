@@ -99,17 +99,18 @@ void RunningChild::kill_group() { ::kill(target(), SIGKILL); }
 
 bool RunningChild::has_ended() {
     if (!process_) return true;
-    // Its number is another process's once it has been waited for: kill_running_children() forgets it before.
     siginfo_t ended{};
     const int seen = ::waitid(P_PID, id_t(*process_), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (killed_for_new_life) return false;
-    if (seen < 0 ? errno == ECHILD : ended.si_pid != 0) replace_running(target(), 0);
-    int status = 0;
-    const pid_t done = ::waitpid(*process_, &status, WNOHANG);
-    if (done == 0 || (done < 0 && errno == EINTR)) {
+    if (seen == 0 ? ended.si_pid == 0 : errno == EINTR) {
         if (!end_->late && std::chrono::steady_clock::now() >= latest_) end_->late = true, kill_group();
         return false;
     }
+    // Once it has been waited for, its number may be another process's: kill_running_children() forgets it
+    // before.
+    replace_running(target(), 0);
+    int status = 0;
+    const pid_t done = ::waitpid(*process_, &status, 0);
     process_.reset();
     if (done < 0) end_.reset();
     if (done > 0 && WIFEXITED(status)) end_->exit = WEXITSTATUS(status);

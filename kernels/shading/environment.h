@@ -24,9 +24,10 @@ TRIAD_FUNCTION uint cdf_below(global const uint* bounds, uint u) {
 #endif
 }
 
-/* The interval of a tree (CdfShape) that holds u, below 2^32 - 1, and its bounds. */
+/* The interval of a tree (CdfShape) that holds u, and its bounds. */
 TRIAD_FUNCTION uint cdf_search(global const CdfShape* shape, global const uint* tree, uint u, uint* lo,
                                uint* hi) {
+    u = u == 0xffffffffu ? 0xfffffffeu : u;
     const uint levels = shape->levels;
     uint i = 0u;
     uint first = 0u;
@@ -42,7 +43,6 @@ TRIAD_FUNCTION uint cdf_search(global const CdfShape* shape, global const uint* 
 TRIAD_FUNCTION uint cdf_find(global const CdfShape* shape, global const uint* tree, uint u, float* fraction,
                              float* probability) {
     uint lo, hi;
-    u = u == 0xffffffffu ? 0xfffffffeu : u;
     const uint i = cdf_search(shape, tree, u, &lo, &hi);
     const float width = (float)(hi - lo);
     const float f = ((float)(u - lo) + 0.5f) / width;

@@ -18,7 +18,7 @@ TRIAD_FUNCTION uint facing_of(Vec3 n) {
     if (length == 0.0f) return 0u;
     float a = n.x * scale, b = n.z * scale;
     const float c = 1.0f - fabs(b), d = 1.0f - fabs(a);
-    const uint below = n.y < 0.0f;
+    const uint below = n.y < 0.0f; /* no branch, which could not be foreseen */
     a = below ? (a < 0.0f ? -c : c) : a;
     b = below ? (b < 0.0f ? -d : d) : b;
     /* NaN is the last cell */

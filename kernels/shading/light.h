@@ -182,7 +182,6 @@ TRIAD_FUNCTION LightPick light_pick(const Scene* scene, Receiver receiver, uint 
     }
 #endif
     uint first, unused;
-    number = number == 0xffffffffu ? 0xfffffffeu : number;
     pick.light = cdf_search(&scene->frame->lights, scene->light_cdf, number, &first, &unused);
     const float within = (float)(number - first) * (0x1p-32f * scene->lights[pick.light].inverse_pick);
 #else

@@ -151,22 +151,23 @@ TEST(Simulator, sees_a_race_whatever_the_number_of_threads) {
     EXPECT_NE(oclgrind("--data-races", kernels.folder, "R1").find("data race"), std::string::npos);
 }
 
-int exit_code(const std::string& command) {
-    const int status = std::system((command + " > /dev/null 2>&1").c_str());
+int exit_code(const std::string& command, const fs::path& said) {
+    const int status = std::system((command + " > " + said.string() + " 2>&1").c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 TEST(FirstRender, refuses_kernels_that_compute_wrong_answers_unless_forced) {
     const FaultyKernels kernels("shading/base_sample.h", "eta * eta * -wi_h / l2", "1.0f");
     ASSERT_TRUE(kernels.found_once);
-    const fs::path cache = kernels.folder / "cache", picture = kernels.folder / "picture.png";
+    const fs::path cache = kernels.folder / "cache", picture = kernels.folder / "picture.png",
+                   said = kernels.folder / "said.txt";
     const std::string render = "XDG_CACHE_HOME=" + cache.string() + " " + TRIAD_PROGRAM +
                                " render -q --spp 1 --size 8x8 -o " + picture.string() + " --kernels " +
                                kernels.folder.string();
-    EXPECT_EQ(exit_code(render), 5);
+    EXPECT_EQ(exit_code(render, said), 5) << text_of(said);
     EXPECT_FALSE(fs::exists(picture));
-    EXPECT_EQ(exit_code(render), 5) << "the kept verdict";
-    EXPECT_EQ(exit_code(render + " --force"), 0);
+    EXPECT_EQ(exit_code(render, said), 5) << "the kept verdict: " << text_of(said);
+    EXPECT_EQ(exit_code(render + " --force", said), 0) << text_of(said);
     EXPECT_TRUE(fs::exists(picture));
 }
 
