@@ -117,24 +117,24 @@ __kernel void draw(__global Vec4* out, __global const Case* cases, __global cons
     const BsdfSample a = bsdf_sample(&b, wo, sampler_2d(&s, SAMPLER_SOBOL_SETS).x, sampler_2d(&s, SAMPLER_SOBOL_SETS + 1u));
     out[i] = a.event == BSDF_NONE ? vec4_splat(0.0f) : vec3_with(a.wi, a.pdf);
 }
-/* Integral of the pdf over the cells of a grid in (cos theta, phi), by 64 x 32 midpoints each, of which an item takes two
- * rows. */
+/* Integral of the pdf over the cells of a grid in (cos theta, phi), by 2 parts x parts midpoints each, of which an item
+ * takes two rows. */
 __kernel void integrate(__global float* out, __global const Case* cases, __global const float* tables, uint rows,
-                        uint columns, uint count) {
-    const uint item = get_global_id(0), i = item / 32u;
+                        uint columns, uint parts, uint count) {
+    const uint item = get_global_id(0), i = item / parts;
     if (item >= count) return;
     Bsdf b;
     const Vec3 wo = make(cases, &b, tables);
     float sum = 0.0f;
-    for (uint j = item % 32u * 64u; j < (item % 32u + 1u) * 64u; ++j) {
-        const float z = -1.0f + 2.0f * (convert_float(i / columns) + (convert_float(j / 32) + 0.5f) / 64) / rows;
+    for (uint j = item % parts * 2u * parts; j < (item % parts + 1u) * 2u * parts; ++j) {
+        const float z = -1.0f + 2.0f * (convert_float(i / columns) + (convert_float(j / parts) + 0.5f) / (2u * parts)) / rows;
         float s, c, pdf;
-        math_sincos_turns((convert_float(i % columns) + (convert_float(j % 32) + 0.5f) / 32) / columns, &s, &c);
+        math_sincos_turns((convert_float(i % columns) + (convert_float(j % parts) + 0.5f) / parts) / columns, &s, &c);
         const float r = sqrt((1.0f - z) * (1.0f + z));
         bsdf_eval(&b, wo, vec3_make(r * c, r * s, z), &pdf);
         sum += pdf;
     }
-    out[item] = sum * (4.0f * MATH_PI) / (convert_float(rows * columns) * 2048.0f);
+    out[item] = sum * (4.0f * MATH_PI) / (convert_float(rows * columns) * convert_float(2u * parts * parts));
 }
 /* One sample with the random numbers of the case: (wi, pdf), (weight, event). */
 __kernel void once(__global Vec4* out, __global const Case* cases, __global const float* tables, uint count) {
@@ -198,9 +198,6 @@ inline Buffer tables(Check& check) {
     all.insert(all.end(), films.begin(), films.end());
     return check.device.upload(all);
 }
-
-/// Items that share an integral over a cell.
-constexpr std::size_t integral_parts = 32;
 
 /// Of one item: llvmpipe ends an item's loops after 65,535 rounds in all, and a GPU has other items to run.
 constexpr std::uint32_t furnace_samples_of_an_item = 256;
