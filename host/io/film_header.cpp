@@ -30,6 +30,7 @@ RoundRays rays_of(const json& rays) {
 
 json to_json(const FilmProgress& progress) {
     return {{"words", progress.words},
+            {"kernels", progress.kernels},
             {"samples", to_json(progress.samples)},
             {"ended", progress.ended},
             {"wanted", progress.wanted.size()},
@@ -42,6 +43,7 @@ FilmProgress progress_of(const json& header, ProgressSizes& sizes,
                          const std::function<void(const std::string&)>& refuse) {
     FilmProgress progress;
     progress.words = header.at("words").get<std::vector<std::string>>();
+    progress.kernels = header.value("kernels", std::string());
     progress.samples = range_of(header.at("samples"));
     if (progress.samples.begin >= progress.samples.end) refuse("the samples that it asks for are none");
     progress.ended = header.at("ended").get<bool>();

@@ -13,6 +13,7 @@ constexpr double share_of_writes = 0.01;
 
 void RenderLoop::go_on_from(const FilmProgress& progress) {
     round_ = progress.rays;
+    if (!progress.kernels.empty() && progress.kernels != kernels_) kernels_ = "several";
     if (!goal_.adaptive && goal_.error == 0) return;  // all sets get all that is asked for
     for (const auto& [samples, relmse] : progress.estimates) {
         estimates_.emplace_back(samples, relmse);
@@ -30,6 +31,7 @@ void RenderLoop::go_on_from(const FilmProgress& progress) {
 FilmProgress RenderLoop::film_progress() const {
     FilmProgress progress;
     progress.words = goal_.keep.words;
+    progress.kernels = kernels_;
     progress.samples = goal_.samples;
     progress.wanted = wanted_;
     progress.estimates = estimates_;

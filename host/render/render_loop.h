@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -33,6 +34,7 @@ class RenderLoop {
     Schedule schedule_;
     Trend trend_;  ///< of every estimate; the schedule decides by those at the ends of rounds alone
     std::vector<std::pair<double, double>> estimates_;  ///< these: samples per pixel, relMSE
+    std::string kernels_;                               ///< FilmProgress::kernels
     const std::size_t tiles_;
     const std::vector<std::uint32_t> pixels_;  ///< of each set
     Launcher launcher_;

@@ -34,8 +34,11 @@ struct RoundRays {
 /// What a render had still to do when its film was kept, so that it goes on as if it had never stopped.
 struct FilmProgress {
     std::vector<std::string> words;  ///< of the command line that began it: options that decide the picture
-    SampleRange samples;             ///< asked for
-    bool ended = false;              ///< by the time asked for: nothing is owed
+    /// kernel_source::hash() of those that it was rendered with; "several" of more than one; empty: not
+    /// known.
+    std::string kernels;
+    SampleRange samples;  ///< asked for
+    bool ended = false;   ///< by the time asked for: nothing is owed
     /// Of each set (SetSamples) at the end of the round at hand; empty: none is planned.
     std::vector<std::uint32_t> wanted;
     /// Samples per pixel and estimated relMSE at the ends of rounds.

@@ -146,6 +146,13 @@ void RenderSession::resume() {
     if (!found.damage().empty())
         warn("Film " + path + ": " + found.damage() + "; " +
              (found.lost.empty() ? "samples are distributed anew." : "they are rendered again."));
+    const std::string kernels = film.progress ? film.progress->kernels : "";
+    if (!kernels.empty() && kernels != kernel_source::hash())
+        warn(
+            "Film " + path +
+            " was rendered with other kernels than these (of another version of Triad, or by --kernels): its "
+            "samples count as they are, but it will not end with the bytes of a render that was never "
+            "interrupted.");
     renderer_->resume(film);
     resumed_samples_ = film.sample_numbers().mean;
     const std::uint64_t begin = !film.ranges.empty() ? film.ranges[0].begin

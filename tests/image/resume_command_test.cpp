@@ -181,6 +181,24 @@ TEST(ResumeCommand, a_render_that_time_ended_within_a_sample_goes_on) {
     }
 }
 
+TEST(ResumeCommand, a_film_of_other_kernels_goes_on_with_a_warning) {
+    const TemporaryFolder folder;
+    const fs::path film = folder / "a.film", older = folder / "older.film";
+    succeed("render --size 32x24 --time 0.2" + film_option(film));
+    Film begun = load_film(film);
+    ASSERT_TRUE(begun.progress && !begun.progress->kernels.empty());
+    begun.progress->kernels = "of another version";
+    save_film(older, begun);
+    expect_contains(refused(resume_option(older) + " --time 0.2", 0), "rendered with other kernels");
+    const Film both = load_film(older);
+    EXPECT_EQ(both.progress.value().kernels, "several");
+    const std::string goal = " --spp " + std::to_string(both.sample_numbers().most + 8);
+    expect_contains(refused(resume_option(older) + goal, 0), "rendered with other kernels");
+    const std::string said = refused(resume_option(film) + goal, 0);
+    EXPECT_EQ(said.find("other kernels"), std::string::npos) << said;
+    EXPECT_TRUE(bytes_of(film) == bytes_of(older)) << "the kernels were these";
+}
+
 TEST(ResumeCommand, the_holes_of_a_merged_film_are_filled) {
     const TemporaryFolder folder;
     const std::string options = "render --size 32x24 --bins 2x1";

@@ -56,12 +56,18 @@ TEST_F(Schemas, describe_renders_films_and_their_progress) {
     std::ofstream(path("bad.gltf")) << "{";
     expect_report("info", "info " + path("bad.gltf"), 2);
     expect_lines("render " + path("bad.gltf"), 2);
-    // Its header: after 16 bytes the length, and then as much.
-    std::string bytes = bytes_of(film);
-    std::uint64_t length = 0;
-    std::memcpy(&length, bytes.data() + 16, sizeof length);
-    std::ofstream(path("header")) << bytes.substr(24, length);
-    expect_schema("film", path("header"));
+    const std::string stopped = path("stopped.film");
+    run("render " + knot + " -q --size 32x32 --time 0.1 --film " + stopped);
+    for (const std::string& of : {film, stopped}) {
+        // Its header: after 16 bytes the length, and then as much.
+        const std::string bytes = bytes_of(of);
+        std::uint64_t length = 0;
+        std::memcpy(&length, bytes.data() + 16, sizeof length);
+        const std::string header = bytes.substr(24, length);
+        EXPECT_EQ(header.find("\"progress\"") != std::string::npos, of == stopped);
+        std::ofstream(path("header")) << header;
+        expect_schema("film", path("header"));
+    }
 }
 
 TEST_F(Schemas, describe_comparisons_and_panels) {

@@ -186,6 +186,7 @@ TEST(FilmFile, keeps_what_is_still_to_be_done) {
     const TemporaryFolder folder;
     Film film = synthetic({0, 4});
     film.progress = FilmProgress{.words = {"a b.glb", "--seed=3", "\xff"},
+                                 .kernels = "0123abc",
                                  .samples = {0, 9},
                                  .ended = true,
                                  .wanted = {4, 6, 8},
@@ -197,6 +198,7 @@ TEST(FilmFile, keeps_what_is_still_to_be_done) {
     ASSERT_TRUE(back.progress && header.progress);
     EXPECT_EQ(back.progress->words.at(1), "--seed=3");
     EXPECT_EQ(header.progress->words, back.progress->words);
+    EXPECT_EQ(back.progress->kernels, film.progress->kernels);
     EXPECT_EQ(back.progress->samples, film.progress->samples);
     EXPECT_TRUE(back.progress->ended);
     EXPECT_EQ(back.progress->wanted, film.progress->wanted);
