@@ -1,5 +1,7 @@
 #include "triad/film.h"
 
+#include <algorithm>
+
 #include "api/guard.h"
 #include "api/inside.h"
 #include "api/parse.h"
@@ -116,7 +118,7 @@ Film load_film(const std::filesystem::path& path, const std::string& device) {
         Film::Inside inside;
         inside.film = triad::load_film(path);
         inside.facts = triad::metadata_of(inside.film);
-        inside.complete = !inside.film.progress;
+        inside.complete = !inside.film.progress || inside.film.progress->ended;
         inside.selector = device;
         return Film(std::make_shared<const Film::Inside>(std::move(inside)));
     });
@@ -134,6 +136,7 @@ Film merge(const std::vector<Film>& films) {
         inside.style = first.style, inside.is_chosen = first.is_chosen;
         inside.reconstruct = first.reconstruct;
         inside.selector = first.selector, inside.device = first.device;
+        inside.complete = std::all_of(films.begin(), films.end(), [](const Film& f) { return f.complete(); });
         return Film(std::make_shared<const Film::Inside>(std::move(inside)));
     });
 }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 
 namespace triad {
@@ -31,7 +32,9 @@ extern "C" void on_signal(int number) {
     if (signals) return;
     signals = 1;
     const char* const text = said_at_first;
+    const int error = errno;
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text, std::strlen(text));
+    errno = error;
 }
 
 }  // namespace

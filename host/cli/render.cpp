@@ -6,6 +6,7 @@
 #include "base/file_lock.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "base/program.h"
 #include "base/progress.h"
 #include "base/text.h"
 #include "cli/command_line.h"
@@ -150,8 +151,9 @@ Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& 
         const Exit exit = run(request, devices, to_go_on, display);
         display.end(int(exit));
         return exit;
-    } catch (const Error& error) {
-        display.end(int(error.exit()), error.what());
+    } catch (...) {
+        const Failure failure = failure_at_hand();
+        display.end(failure.exit, failure.sentence);
         throw;
     }
 }

@@ -93,6 +93,8 @@ SetErrors PerceivedSets::of(const Film& film, const SetSamples& have) {
     const std::vector<std::uint32_t> pixels = set_pixels(film.width, film.height);
     const std::size_t pairs = (film.width + 1) / 2;
     const bool first = had_.empty();
+    // of go_on_from(): what was kept is of this film
+    if (!first && (had_.size() != have.size() || before_[0].size() != pairs * film.height * 4)) refuse();
     std::array<std::vector<float>, 2> shown;  // all of it before anything is remembered: a device may fail
     for (unsigned set = 0; set < 2; ++set)
         for (unsigned y = 0; y < film.height; y += band_rows) {

@@ -1,6 +1,7 @@
 #include "render/film_store.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -94,6 +95,13 @@ void FilmStore::deliver(Tracer& tracer, const SetSamples& expected) {
 void FilmStore::begin_with(const Film& film) {
     film_.sums = film.sums, film_.half_sums = film.half_sums, film_.samples = film.samples;
     film_.counters = film.counters;
+}
+
+Film FilmStore::take() {
+    Film taken = merged_header(std::span<const Film>(&film_, 1));
+    taken.sums = std::exchange(film_.sums, {}), taken.half_sums = std::exchange(film_.half_sums, {});
+    taken.samples = std::exchange(film_.samples, {});
+    return taken;
 }
 
 void FilmStore::drop_tiles(const std::vector<bool>& tiles) {

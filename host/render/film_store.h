@@ -39,6 +39,8 @@ class FilmStore {
     void deliver(Tracer& tracer, const SetSamples& expected);
     /// The arrays begin as those of a film that goes on.
     void begin_with(const Film& film);
+    /// The film, whose arrays are then no longer here.
+    Film take();
     /// Tiles of the crop lose their samples.
     void drop_tiles(const std::vector<bool>& tiles);
 

@@ -34,6 +34,7 @@ std::optional<PilotChoice> kept_pilot(const DeviceInfo& device, const std::strin
     try {
         const nlohmann::json json = nlohmann::json::parse(file);
         if (json.at("schema") != schema) return {};
+        if (!json.at("photons").is_number_unsigned()) return {};
         const PilotChoice choice{json.at("paths"), json.at("photons")};
         if (choice.paths == (choice.photons == 0)) return choice;
     } catch (const nlohmann::json::exception&) {  // damaged: flown again

@@ -1,6 +1,8 @@
 #include "render/launcher.h"
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <exception>
 #include <system_error>
 #include <thread>
@@ -22,7 +24,16 @@ struct Patience {
 };
 constexpr Patience with_others{10, 120}, alone{60, 3600};  // an only one is given up with the render
 
+const Patience& patience_of(const Tracers& tracers) { return tracers.size() > 1 ? with_others : alone; }
+
+/// Between two calls of what is done while tracers work.
+constexpr std::chrono::milliseconds meanwhile_interval{200};
+
 }  // namespace
+
+Launcher::~Launcher() {
+    for (std::size_t i = 0; i < tracers_.size(); ++i) be_most_patient(i);
+}
 
 double Launcher::pace() const {
     double sum = 0;
@@ -72,9 +83,14 @@ void Launcher::launch(std::size_t i, WorkPiece piece, const std::vector<dev::Til
 }
 
 void Launcher::be_patient(std::size_t i) {
-    const Patience& patience = tracers_.size() > 1 ? with_others : alone;
+    const Patience& patience = patience_of(tracers_);
     const double measured = times_the_longest * longest_[i];
     tracers_[i]->device().set_patience(std::max(measured, longest_[i] > 0 ? patience.least : patience.first));
+}
+
+void Launcher::be_most_patient(std::size_t i) {
+    tracers_[i]->device().set_patience(
+        std::max(times_the_longest * longest_[i], patience_of(tracers_).first));
 }
 
 void Launcher::run(WorkShare& share, const std::vector<dev::TileWork>& work, const Orders& orders) {
@@ -126,25 +142,36 @@ void Launcher::require_one() const {
 
 void Launcher::on_every_tracer(const std::function<void(std::size_t)>& work) {
     if (tracers_.size() == 1) return work(0);
+    std::vector<std::size_t> alive;
+    for (std::size_t i = 0; i < tracers_.size(); ++i)
+        if (is_alive(i)) alive.push_back(i);
     std::exception_ptr defect;  // of the program, not of a device
+    std::size_t at_work = alive.size();
+    std::condition_variable ended;
     const auto on = [&](std::size_t i) {
+        std::exception_ptr thrown;
         try {
             attempt(i, work);
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            defect = std::current_exception();
+            thrown = std::current_exception();
         }
+        const std::lock_guard lock(mutex_);
+        if (thrown) defect = thrown;
+        --at_work;
+        ended.notify_one();
     };
     {
         std::vector<std::jthread> threads;
-        std::size_t i = 0;
+        std::size_t k = 0;
         try {
-            for (; i < tracers_.size(); ++i)
-                if (is_alive(i)) threads.emplace_back(on, i);
+            for (; k < alive.size(); ++k) threads.emplace_back(on, alive[k]);
         } catch (
             const std::system_error&) {  // a limit of the shell: the rest in this one, one after the other
-            for (; i < tracers_.size(); ++i) on(i);
+            for (; k < alive.size(); ++k) on(alive[k]);
         }
+        std::unique_lock lock(mutex_);
+        while (!ended.wait_for(lock, meanwhile_interval, [&] { return at_work == 0; }))
+            if (meanwhile_) meanwhile_();
     }
     if (defect) std::rethrow_exception(defect);
     require_one();

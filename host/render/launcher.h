@@ -5,6 +5,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "render/film_store.h"
@@ -26,6 +27,14 @@ class Launcher {
           busy_(tracers.size()),
           longest_(tracers.size()),
           samples_(tracers.size()) {}
+    Launcher(const Launcher&) = delete;
+    Launcher& operator=(const Launcher&) = delete;
+    /// Devices are given the time that a first launch may take: what they do next may be one.
+    ~Launcher();
+
+    /// Where several tracers work in threads of their own, the thread that waits for them calls this some
+    /// times a second, with mutex() locked.
+    void set_meanwhile(std::function<void()> work) { meanwhile_ = std::move(work); }
 
     /// Samples that all tracers trace in a second; 0: nothing was measured yet.
     double pace() const;
@@ -71,6 +80,8 @@ class Launcher {
     }
     /// From here on this tracer's device is given up when it hangs: soon where there are others.
     void be_patient(std::size_t tracer);
+    /// The same for work that programs may be compiled for.
+    void be_most_patient(std::size_t tracer);
     /// Seconds that a tracer worked, and samples that it took, so far.
     double busy_seconds(std::size_t tracer) const { return busy_[tracer]; }
     std::uint64_t samples(std::size_t tracer) const { return samples_[tracer]; }
@@ -83,6 +94,7 @@ class Launcher {
     std::vector<double> busy_, longest_;  ///< longest_: of a launch
     std::vector<std::uint64_t> samples_;
     std::mutex mutex_;
+    std::function<void()> meanwhile_;
     std::exception_ptr last_failure_;
 
     void launch(std::size_t tracer, WorkPiece piece, const std::vector<dev::TileWork>& work,

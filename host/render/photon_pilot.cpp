@@ -157,7 +157,13 @@ RenderSettings with_photon_pilot(const DeviceScenes& scenes, const RenderSetting
                               std::to_string(settings.height);
     std::optional<PilotChoice> choice = kept_pilot(device, about);
     if (!choice) {
-        choice = chosen(scenes.front(), settings, small);
+        for (std::size_t i = 0; !choice; ++i) {
+            try {
+                choice = chosen(scenes[i], settings, small);
+            } catch (const DeviceError&) {  // another may do it; that this one cannot is told when it renders
+                if (i + 1 == scenes.size()) throw;
+            }
+        }
         keep_pilot(device, about, *choice);
     }
     RenderSettings result = settings;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <ctime>
 
-#include "base/error.h"
 #include "base/spans.h"
 
 namespace triad {
@@ -51,6 +50,7 @@ RenderLoop::RenderLoop(Renderer::State& state, const RenderGoal& goal,
     }
     samples_before_ = double(before);
     for (std::size_t i = 0; i < s_.have.size(); ++i) have_[i] = s_.have[i] - std::uint32_t(before);
+    launcher_.set_meanwhile([this] { report_when_due(); });
     go_on();
 }
 
@@ -72,7 +72,7 @@ RenderResult RenderLoop::run() {
     try {
         if (photons().is_classic()) make_classic_map();
         work_through_rounds();
-    } catch (const Error&) {
+    } catch (...) {
         keep_what_was_delivered();
         throw;
     }
@@ -98,7 +98,9 @@ void RenderLoop::work_through_rounds() {
         if (schedule_.time_is_up(samples(), seconds())) continue;  // an estimate would take more of it
         if (goal_.adaptive || schedule_.needs_estimate()) estimate(true);
     }
-    if (is_shared()) gather();  // so that no failure of a device costs anything any more
+    // So that no failure of a device costs anything any more. Of samples with photons that were abandoned
+    // some tiles are not there: that film is good for nothing.
+    if (is_shared() && !(abandoned_ && has_photons_per_sample())) gather();
 }
 
 /// Sets wanted_; false: the goal is reached.
@@ -162,6 +164,11 @@ void RenderLoop::reach(const SetSamples& wanted) {
 void RenderLoop::report() {
     interrupted_ = !report_(progress()) || interrupted_;
     next_report_ = seconds() + seconds_between_reports;
+}
+
+/// Within a pass, by the thread that render_until() was called by, with the launcher's mutex locked.
+void RenderLoop::report_when_due() {
+    if (seconds() >= next_report_ && (has_photons_per_sample() ? least() : total_) > 0) report();
 }
 
 std::uint32_t RenderLoop::least() const {

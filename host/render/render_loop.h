@@ -82,6 +82,7 @@ class RenderLoop {
     void name_shares();
     std::vector<SampleRange> with_before(SampleRange range) const;
     void report();
+    void report_when_due();
     void remember();
     std::vector<DeviceWork> devices() const;
     Progress progress() const;

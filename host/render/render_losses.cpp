@@ -60,6 +60,7 @@ bool RenderLoop::redo_lost() {
 void RenderLoop::with_a_device(const std::function<void()>& work) {
     for (;;) {
         try {
+            for (std::size_t i = 0; i < s_.tracers.size(); ++i) launcher_.be_most_patient(i);
             return work();
         } catch (const DeviceError&) {
             if (!is_shared()) throw;

@@ -60,21 +60,24 @@ bool RenderLoop::pass(const SetSamples& wanted, unsigned run) {
         if (std::exchange(given, redone_) != redone_) give_work();
         bool has_launched = false;
         const double began = seconds();
-        launcher_.run(
-            share, work,
-            {.first_sample = goal_.samples.begin,
-             .launch_seconds =
-                 [&](double most) {
-                     return may_be_cut ? std::min(most, schedule_.time_left(seconds())) : most;
-                 },
-             .stop = [&] { return is_abandoned() || (has_launched && (is_keeping_due() || time_is_up())); },
-             .taken =
-                 [&](std::size_t tracer, WorkPiece piece) {
-                     count(work, piece), credit(work, tracer, piece);
-                     for (std::size_t i = 0; i < piece.count && is_shared(); ++i)
-                         undelivered_[tracer].add(work[piece.first + i]);
-                     has_launched = true;
-                 }});
+        launcher_.run(share, work,
+                      {.first_sample = goal_.samples.begin,
+                       .launch_seconds =
+                           [&](double most) {
+                               return may_be_cut ? std::min(most, schedule_.time_left(seconds())) : most;
+                           },
+                       .stop =
+                           [&] {
+                               if (!is_shared()) report_when_due();
+                               return is_abandoned() || (has_launched && (is_keeping_due() || time_is_up()));
+                           },
+                       .taken =
+                           [&](std::size_t tracer, WorkPiece piece) {
+                               count(work, piece), credit(work, tracer, piece);
+                               for (std::size_t i = 0; i < piece.count && is_shared(); ++i)
+                                   undelivered_[tracer].add(work[piece.first + i]);
+                               has_launched = true;
+                           }});
         launching_ += seconds() - began;
         redo_lost();
         keep_when_due();
@@ -150,7 +153,7 @@ bool RenderLoop::pass_with_photons(TileWorks work, bool may_be_cut) {
                 std::uint32_t i;
                 {
                     const std::lock_guard lock(launcher_.mutex());
-                    if (seconds() >= next_report_ && least() > 0) report();
+                    if (!is_shared()) report_when_due();
                     if (next == run || (may_be_cut && tracer != lead) || interrupted_ || is_abandoned() ||
                         (has_begun && is_keeping_due()))
                         return;

@@ -30,11 +30,14 @@ void check(const RenderSettings& s) {
         refuse("The picture has more than 2^32 pixels; render crops of it.");
 }
 
-/// On the host and on every device.
+/// On the host and on every device; of several, one at a time lies on the host once more; and what an
+/// estimate of the error takes.
 void require_film_memory(const RenderSettings& s, std::size_t devices) {
+    constexpr std::uint64_t of_estimate = 40;  // bytes of a pixel
     const std::uint64_t pixels =
         s.crop[2] ? std::uint64_t(s.crop[2]) * s.crop[3] : std::uint64_t(s.width) * s.height;
-    require_memory(pixels * (32 * s.bins_x * s.bins_y + 28) * (devices + 1),
+    const std::uint64_t films = devices > 1 ? devices + 2 : 2;
+    require_memory(pixels * ((32 * s.bins_x * s.bins_y + 28) * films + of_estimate),
                    "The film of " + std::to_string(pixels) + " pixels");
 }
 
@@ -170,10 +173,19 @@ void Renderer::restart(std::uint32_t seed) {
     s.progress.reset();
 }
 
-Film Renderer::film() {
+void Renderer::gather() {
     State& s = *state_;
     if (s.tracers.size() == 1 || s.film().sums.empty()) s.store.gather(s.tracers);  // else all is delivered
-    return merge(std::span<const Film>(&s.film(), 1));
+}
+
+Film Renderer::film() {
+    gather();
+    return merge(std::span<const Film>(&state_->film(), 1));
+}
+
+Film Renderer::take_film() {
+    gather();
+    return state_->store.take();
 }
 
 void Renderer::resume(const Film& film) {

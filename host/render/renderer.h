@@ -80,6 +80,8 @@ class Renderer {
 
     /// The film so far, read from the devices. Equal work gives equal bytes.
     Film film();
+    /// The same without a copy of its arrays: the renderer is then only to be restarted, or resumed.
+    Film take_film();
     /// Goes on from a film of this picture: what is rendered from now on is added to it, and a goal whose
     /// samples begin where a range of the film does wants what lies beyond. Where the film stopped before its
     /// goal, the same goal ends with the bytes of a render that never stopped. Throws Error(scene) when the
@@ -119,6 +121,8 @@ class Renderer {
     friend class RenderLoop;
     struct State;
     std::unique_ptr<State> state_;
+
+    void gather();
 };
 
 }  // namespace triad

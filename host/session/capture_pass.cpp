@@ -44,7 +44,7 @@ class WhileRecording {
 Capture capture_pass(RenderRequest request) {
     complete(request);
     set_host_threads(request.threads);
-    if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
+    kernel_source::set_folder(request.kernels_path);
     const Scene scene = load_scene(request);
     const RenderSettings settings = settings_of(request, scene);
     Device device = open_device(request);

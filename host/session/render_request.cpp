@@ -114,6 +114,10 @@ void complete(RenderRequest& o) {
             throw Error(Exit::usage, "--samples share:" + std::to_string(i) + "/" + std::to_string(k) +
                                          " has no samples of --spp " + std::to_string(*o.spp) + ".");
     }
+    if (o.samples && o.samples->end - o.samples->begin > most_samples)
+        throw Error(Exit::usage, "--samples: " + std::to_string(o.samples->end - o.samples->begin) +
+                                     " samples of a pixel are more than the " + std::to_string(most_samples) +
+                                     " that a render takes; render parts of them, and triad merge.");
     if (o.samples && (o.samples->begin % bins != 0 || o.samples->end % bins != 0))
         throw Error(Exit::usage, "--samples: with " + std::to_string(bins) +
                                      " bins per pixel, ranges begin and end at multiples of " +

@@ -46,7 +46,7 @@ RenderRequest checked(RenderRequest request) {
         throw Error(Exit::usage, "The film " + film + " is there already: triad render --resume " + film +
                                      " goes on with it. Remove it, or name another one, to begin again.");
     set_host_threads(request.threads);
-    if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
+    kernel_source::set_folder(request.kernels_path);
     return request;
 }
 
@@ -213,7 +213,7 @@ void RenderSession::keep(const Film& film) {
     if (!is_proved()) return;
     try {
         save_film(request_.film_path, film);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
         warn(std::string(error.what()) + " The film as it was last written stays, and rendering goes on.");
     }
 }
@@ -233,6 +233,21 @@ RenderResult RenderSession::fill_holes(const std::function<bool(const Progress&)
     return all;
 }
 
+/// Whatever fails of this work, the film that was asked for is written.
+template <class Work>
+void RenderSession::film_first(const Film& film, const Work& work) {
+    try {
+        work();
+    } catch (...) {
+        try {
+            if (!request_.film_path.empty()) save_film(request_.film_path, film);
+        } catch (const std::exception& error) {
+            warn(std::string(error.what()) + " The film as it was last written stays.");
+        }
+        throw;
+    }
+}
+
 RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& report) {
     const auto proving_report = [&](const Progress& progress) {
         is_proved();
@@ -243,8 +258,10 @@ RenderOutcome RenderSession::render(const std::function<bool(const Progress&)>& 
         return missing_ ? fill_holes(proving_report) : renderer_->render_until(goal_, proving_report);
     });
     prove();
-    outcome.film = renderer_->film();
-    if (request_.style.denoise != Denoiser::off) add_guides(*renderer_, outcome.film);
+    outcome.film = renderer_->take_film();
+    film_first(outcome.film, [&] {
+        if (request_.style.denoise != Denoiser::off) add_guides(*renderer_, outcome.film);
+    });
     outcome.numbers = outcome.film.sample_numbers();
     outcome.relmse = estimated_relmse(outcome.film);
     return outcome;
@@ -298,18 +315,12 @@ Metadata RenderSession::facts_of(const RenderOutcome& outcome) const {
 
 void RenderSession::write(const RenderOutcome& outcome) {
     const Span span("write", "write");
-    const auto write_film = [&] {
-        if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
-    };
-    try {
+    film_first(outcome.film, [&] {
         write_outputs(request_.outputs, renderer_->device(), outcome.film, request_.style, layers_of(outcome),
                       metadata_of(outcome));
-    } catch (const Error&) {
-        write_film();
-        throw;
-    }
+    });
     // The film last: where it says that it is complete, the pictures are there.
-    write_film();
+    if (!request_.film_path.empty()) save_film(request_.film_path, outcome.film);
 }
 
 }  // namespace triad

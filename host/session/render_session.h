@@ -86,6 +86,8 @@ class RenderSession {
     std::unique_ptr<Renderer> made_renderer();
     template <class Work>
     auto unless_device_is_wrong(const Work& work);
+    template <class Work>
+    void film_first(const Film& film, const Work& work);
     bool is_proved();
     void resume();
     void keep(const Film& film);

@@ -51,6 +51,12 @@ std::vector<std::string> batches_for(const Device& device) {
     return sizes;
 }
 
+/// Of 32 bits.
+bool is_number(const std::string& text) {
+    return !text.empty() && text.size() < 10 &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
 /// What is best by the timings; of axes without any, what is wished for if there is such a value, or the
 /// preferred one.
 Tuning set_best(Device& device, const std::vector<TuneTiming>& timings, const Tuning& wishes = {}) {
@@ -106,16 +112,17 @@ const std::vector<TuneSearch>& tune_searches() {
     static const std::vector<TuneSearch> searches{
         {"rays",
          TuneWhen::first_use,
-         {{"format", formats_for,
+         {{"format", formats_for, [](const std::string& name) { return find_bvh_format(name).has_value(); },
            [](Device& device, const std::string& name) { set_format(device, *find_bvh_format(name)); }},
-          {"local", locals_for,
+          {"local", locals_for, is_number,
            [](Device& device, const std::string& size) { device.set_preferred_local(std::stoul(size)); }}},
          make_ray_workload},
         {"paths",
          TuneWhen::asked,
          {{"path_driver", path_drivers_for,
+           [](const std::string& name) { return find_path_driver(name).has_value(); },
            [](Device& device, const std::string& name) { set_path_driver(device, *find_path_driver(name)); }},
-          {"batch", batches_for,
+          {"batch", batches_for, is_number,
            [](Device& device, const std::string& paths) {
                set_batch(device, std::uint32_t(std::stoul(paths)));
            }}},

@@ -23,6 +23,7 @@ struct TuneAxis {
     /// nothing was measured. The axes before it in its search are set when this is asked, so that an axis of
     /// which some of their values know nothing can say so by a single value.
     std::vector<std::string> (*values)(const Device&);
+    bool (*knows)(const std::string& value);  ///< on any device
     void (*set)(Device&, const std::string& value);
 };
 

@@ -15,14 +15,16 @@ namespace {
 
 constexpr const char* schema = "triad.tuned/2";
 
-/// Those of searches that are still there and have values of all their axes of today.
+/// Those of searches that are still there and have values of all their axes of today that these know.
 std::vector<TuneTiming> still_known(const std::vector<TuneTiming>& timings) {
     std::vector<TuneTiming> known;
     for (const TuneSearch& search : tune_searches())
         for (const TuneTiming& timing : timings)
             if (timing.search == search.name &&
-                std::all_of(search.axes.begin(), search.axes.end(),
-                            [&](const TuneAxis& axis) { return timing.values.contains(axis.name); }))
+                std::all_of(search.axes.begin(), search.axes.end(), [&](const TuneAxis& axis) {
+                    const auto value = timing.values.find(axis.name);
+                    return value != timing.values.end() && axis.knows(value->second);
+                }))
                 known.push_back(timing);
     return known;
 }

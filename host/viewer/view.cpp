@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/child_process.h"
+#include "base/child.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/parallel_for.h"
@@ -31,7 +31,7 @@ RenderRequest checked(RenderRequest request) {
                     "--denoise is for triad render and resolve: the page shows what the samples say.");
     complete(request);
     set_host_threads(request.threads);
-    if (!request.kernels_path.empty()) kernel_source::set_folder(request.kernels_path);
+    kernel_source::set_folder(request.kernels_path);
     return request;
 }
 
@@ -39,7 +39,7 @@ RenderRequest checked(RenderRequest request) {
 void open_browser(const std::string& url) {
     const bool has_desktop = std::getenv("DISPLAY") || std::getenv("WAYLAND_DISPLAY");
     if (!has_desktop) return;
-    std::thread([url] { run_program({"xdg-open", url}, "/dev/null", "/dev/null"); }).detach();
+    std::thread([url] { run_child({.arguments = {"xdg-open", url}, .own_group = true}); }).detach();
 }
 
 }  // namespace

@@ -200,7 +200,11 @@ void ViewLoop::grow() {
         return exchange_.urgency() < Urgency::pause;
     });
     picture.complete = result.stop != Stop::interrupt;
-    if (exchange_.urgency() == Urgency::picture) return;
+    if (exchange_.urgency() == Urgency::picture) {
+        // A sample was left in its middle: should the change be refused, this picture begins again.
+        if (picture.renderer->photons() > 0) picture = Growing();
+        return;
+    }
     picture.film = picture.renderer->film();
     if (picture.complete) {  // also where it ended before the first estimate
         Progress end;

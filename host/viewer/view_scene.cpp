@@ -28,10 +28,17 @@ ViewScene::ViewScene(const RenderRequest& request) : devices_(open_devices(reque
 void ViewScene::load(const RenderRequest& request) {
     Scene scene = loaded(request);
     const RenderSettings settings = settings_of(request, scene);
+    const std::shared_ptr<const PackedScene> packed = packed_;
+    const DeviceScenes on_devices = on_devices_;
     pack(scene, settings, {});
+    try {
+        const Span span("choose photons", "build");
+        settings_ = with_photon_pilot(on_devices_, settings);
+    } catch (...) {  // the scene before stays whole
+        packed_ = packed, on_devices_ = on_devices;
+        throw;
+    }
     scene_ = std::move(scene);
-    const Span span("choose photons", "build");
-    settings_ = with_photon_pilot(on_devices_, settings);
 }
 
 void ViewScene::pack(const Scene& scene, const RenderSettings& settings,

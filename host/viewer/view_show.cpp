@@ -90,7 +90,7 @@ void ViewLoop::serve(const Film& film) {
             describe(request_.style.reconstruction, metadata);
             file.bytes.set_value(
                 text_of(encode_output(file.extension, scene_->device(), film, request_.style, metadata)));
-        } catch (const Error&) {
+        } catch (const std::exception&) {  // memory, too
             file.bytes.set_exception(std::current_exception());
         }
     }

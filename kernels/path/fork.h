@@ -18,6 +18,7 @@ TRIAD_FUNCTION void path_fork(const Scene* scene, PathState* path, const Vertex*
         for (uint axis = 0u; axis < 3u; ++axis) fork->direction[axis] = path->ray.direction[axis];
         fork->traits = path->traits;
         fork->throughput = path->throughput;
+        fork->pdf = path->pdf;
         fork->body_scale = path->body_scale;
         fork->bodies = path->bodies;
     }
@@ -37,6 +38,7 @@ TRIAD_FUNCTION int path_next_wavelength(PathState* path) {
     for (uint axis = 0u; axis < 3u; ++axis) path->ray.direction[axis] = fork->direction[axis];
     path->traits = fork->traits;
     path->throughput = fork->throughput;
+    path->pdf = fork->pdf;
     path->body_scale = fork->body_scale;
     path->bodies = fork->bodies;
     return 1;

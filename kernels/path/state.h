@@ -32,6 +32,7 @@ typedef struct PathFork {
     float direction[3]; /* of the edge */
     uint traits;
     Colour throughput;
+    float pdf;
     float body_scale;
     Bodies bodies;
 } PathFork;

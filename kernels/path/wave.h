@@ -189,7 +189,7 @@ TRIAD_FUNCTION_PER_CALL void planes_path(Planes* p, PathState* path) {
     planes_array3(p, fork->direction);
     planes_uint(p, &fork->traits);
     planes_colour(p, &fork->throughput);
-    planes_float(p, &fork->body_scale);
+    planes_float(p, &fork->pdf), planes_float(p, &fork->body_scale);
     planes_bodies(p, &fork->bodies);
 #endif
 }

@@ -46,11 +46,12 @@ RenderSettings settings_of(bool levels) {
     return s;
 }
 
-TileMeans means(RenderSettings settings, std::uint32_t first_seed, SampleRange samples, unsigned films) {
+TileMeans means(const Scene& scene, RenderSettings settings, std::uint32_t first_seed, SampleRange samples,
+                unsigned films) {
     TileMeans sum;
     for (unsigned k = 0; k < films; ++k) {
         settings.seed = first_seed + k;
-        sum.add(render(test_device(), noisy_room(), settings, {samples}));
+        sum.add(render(test_device(), scene, settings, {samples}));
     }
     return sum;
 }
@@ -60,13 +61,13 @@ TEST(TextureLevels, pictures_have_the_mean_of_those_without) {
         const TileMeans without = [&] {
             RenderSettings s = settings_of(false);
             to(s);
-            return means(s, 100, {0, 1024}, 4);
+            return means(noisy_room(), s, 100, {0, 1024}, 4);
         }();
         RenderSettings s = settings_of(true);
         to(s);
-        const MeanTest whole = test_means(means(s, 1, {0, 2048}, 4), without);
+        const MeanTest whole = test_means(means(noisy_room(), s, 1, {0, 2048}, 4), without);
         EXPECT_TRUE(whole.same) << whole.sentence;
-        const MeanTest late = test_means(means(s, 1, {1 << 16, (1 << 16) + 512}, 4), without);
+        const MeanTest late = test_means(means(noisy_room(), s, 1, {1 << 16, (1 << 16) + 512}, 4), without);
         EXPECT_TRUE(late.same) << "late samples: " << late.sentence;
     };
     change([](RenderSettings&) {});
@@ -75,6 +76,30 @@ TEST(TextureLevels, pictures_have_the_mean_of_those_without) {
         s.view.extent = {3, 2};
         s.bins_x = 3;
     });
+}
+
+/// A block of glass that disperses, one half of it red and one blue, before a wall.
+Scene tinted_prism() {
+    Builder b;
+    Image halves{"halves", 256, 256, 8, std::vector<std::uint8_t>(256 * 256 * 4, 255)};
+    for (std::size_t i = 0; i < 256 * 256; ++i) halves.texels[4 * i + (i % 256 < 128 ? 2 : 0)] = 40;
+    b.scene.images.push_back(std::move(halves));
+    b.scene.textures.push_back({});
+    Material prism = glass(1.6f);
+    prism.dispersion = find_glass("SF10");
+    prism.base_colour_texture = TextureUse{};
+    b.add(shapes::quad({-4, -1, -1}, {8, 0, 0}, {0, 4, 0}), lambert(0.8f));
+    b.add(shapes::quad({-2.5f, -0.7f, 0}, {5, 0, 0}, {0, 2.8f, 0}), prism);
+    b.add(shapes::quad({-2.5f, -0.7f, -0.2f}, {0, 2.8f, 0}, {5, 0, 0}), glass(1.6f));
+    b.add(shapes::quad({-4, 2.5f, -1}, {8, 0, 0}, {0, 0, 4}), emitter(6.0f));
+    return b.scene;
+}
+
+TEST(TextureLevels, every_wavelength_sees_as_much_of_a_texture) {
+    // The first samples, over whose share of the pixel the texture hardly changes.
+    const TileMeans without = means(tinted_prism(), settings_of(false), 100, {0, 8}, 48);
+    const MeanTest early = test_means(means(tinted_prism(), settings_of(true), 1, {0, 8}, 48), without);
+    EXPECT_TRUE(early.same) << early.sentence;
 }
 
 /// Mean over the pixels of the squared difference from the picture of `reference`.

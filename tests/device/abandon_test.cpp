@@ -2,6 +2,11 @@
 // been.
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "analytic/analytic_scene.h"
 #include "render/renderer.h"
 #include "same_film.h"
@@ -56,6 +61,67 @@ TEST(Abandon, who_looks_on_is_shown_the_film_when_it_is_wanted) {
     renderer.render_until(goal, keep_going);
     EXPECT_GT(shown, 0u);
     expect_same_bytes(undisturbed(scene), renderer.film(), "looked at");
+}
+
+/// Twice the device at hand.
+class TwoDevices {
+  public:
+    std::vector<Device*> all() { return {&first_, &second_}; }
+
+  private:
+    Device first_ = again(), second_ = again();
+
+    static Device again() { return Device::open({.selector = std::to_string(test_device().info().index)}); }
+};
+
+/// A lamp above a ball of glass, whose caustic photons bring.
+Scene caustic() {
+    analytic::Builder b;
+    b.add(shapes::quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), analytic::lambert(0.7f));
+    b.add(shapes::lat_long_sphere({0, 0.6f, 0}, 0.5f, 24, 12), analytic::glass(1.5f));
+    b.add(shapes::quad({-0.5f, 2.2f, -0.5f}, {1, 0, 0}, {0, 0, 1}), analytic::emitter(6.0f));
+    validate(b.scene);
+    return b.scene;
+}
+
+RenderSettings by_photons() {
+    RenderSettings settings;
+    settings.width = 160, settings.height = 120;
+    settings.integrator = Integrator::photons;
+    settings.photons = 5000;
+    settings.view = look_at({0.4, 1.5, 3.6}, {0, 0.5, 0}, 0.8, 64.0 / 48);
+    return settings;
+}
+
+TEST(Abandon, several_devices_leave_samples_with_photons_in_their_middle) {
+    const Scene scene = caustic();
+    TwoDevices devices;
+    Renderer renderer(devices.all(), scene, by_photons());
+    for (const unsigned most : {3u, 17u}) {
+        std::atomic<unsigned> asked = 0;
+        const RenderResult result = renderer.render_until(
+            {.samples = {0, 200}, .follow = false, .abandon = [&] { return asked++ > most; }}, keep_going);
+        EXPECT_EQ(result.stop, Stop::interrupt);
+        for (const DeviceWork& work : result.devices) EXPECT_EQ(work.failure, "");
+        renderer.restart(by_photons().seed);
+    }
+    renderer.render_until({.samples = all, .follow = false}, keep_going);
+    Renderer alone(test_device(), scene, by_photons());
+    alone.render_until({.samples = all, .follow = false}, keep_going);
+    expect_same_bytes(alone.film(), renderer.film(), "after what was abandoned");
+}
+
+TEST(Abandon, reports_come_from_the_thread_that_renders) {
+    TwoDevices devices;
+    Renderer renderer(devices.all(), caustic(), by_photons());
+    const std::thread::id here = std::this_thread::get_id();
+    unsigned within = 0, elsewhere = 0;
+    renderer.render_until({.samples = {0, 1u << 20}, .follow = false}, [&](const Progress& progress) {
+        elsewhere += std::this_thread::get_id() != here;
+        return ++within < 3 && progress.seconds < 60;
+    });
+    EXPECT_EQ(within, 3u);
+    EXPECT_EQ(elsewhere, 0u);
 }
 
 }  // namespace

@@ -69,12 +69,14 @@ const TuneSearch letters{
       [](const Device&) {
           return std::vector<std::string>{"big", "little"};
       },
+      [](const std::string&) { return true; },
       [](Device& device, const std::string& value) { device.choices()["size"] = value; }},
      {"letter",
       [](const Device& device) {
           return device.choices().at("size") == "big" ? std::vector<std::string>{"a", "bb"}
                                                       : std::vector<std::string>{"a"};
       },
+      [](const std::string&) { return true; },
       [](Device& device, const std::string& value) { device.choices()["letter"] = value; }}},
     [](Device& device) -> std::unique_ptr<Workload> { return std::make_unique<Letters>(device); }};
 
@@ -169,6 +171,18 @@ TEST_F(Tune, timings_without_an_axis_of_today_are_left_out) {
     keep_timings(info, timings);
     ASSERT_TRUE(load_timings(info)) << "what a first use measures is there";
     EXPECT_EQ(load_timings(info)->size(), 1u);
+}
+
+TEST_F(Tune, values_that_an_axis_does_not_know_are_measured_again) {
+    Device& device = test_device();
+    for (const Tuning& damaged :
+         {Tuning{{"format", "x"}, {"local", "64"}}, Tuning{{"format", "bvh8"}, {"local", ""}},
+          Tuning{{"format", "bvh8"}, {"local", "-1"}},
+          Tuning{{"format", "bvh8"}, {"local", "99999999999999999999"}}}) {
+        keep_timings(device.info(), {{"rays", damaged, 1e-9}});
+        EXPECT_FALSE(load_timings(device.info()));
+        EXPECT_NE(ensure_tuned(device).at("local"), damaged.at("local") == "64" ? "0" : damaged.at("local"));
+    }
 }
 
 TEST_F(Tune, values_of_an_axis_may_depend_on_those_before_it) {

@@ -133,6 +133,20 @@ TEST(Library, devices_that_stay_open_change_no_bit) {
     EXPECT_TRUE(rendered({}).image().pixels == first);
 }
 
+TEST(Library, films_know_whether_they_are_complete) {
+    const TemporaryFolder folder;
+    const auto stop = [](const api::Progress&) { return false; };
+    const api::Film timed =
+        api::render(api::Scene(), {.width = 32, .height = 18, .options = {{"time", "0.2"}}});
+    EXPECT_TRUE(timed.complete());
+    timed.save(folder / "timed.film");
+    EXPECT_TRUE(api::load_film(folder / "timed.film").complete()) << "its time was its goal";
+    const api::Film begun =
+        api::render(api::Scene(), {.width = 40, .height = 24, .spp = 1u << 20, .seed = 3}, stop);
+    EXPECT_FALSE(api::merge({begun}).complete());
+    EXPECT_TRUE(api::merge({rendered({})}).complete());
+}
+
 TEST(Library, stops_when_the_report_says_so) {
     int calls = 0;
     const api::Film film = api::render(api::Scene(), {.width = 64, .height = 36, .spp = 1000000},

@@ -114,6 +114,16 @@ TEST(PerceivedSets, what_got_no_samples_keeps_its_error) {
     EXPECT_EQ(sets.of(film, SetSamples(4, 8)), first);
 }
 
+TEST(PerceivedSets, what_was_kept_of_another_film_is_refused) {
+    NoisyFilm picture(16, 8, grey, even_noise, {1, 2});
+    PerceivedSets sets(test_device(), rgb_screen(), {});
+    sets.of(picture.reach(4), SetSamples(4, 4));
+    NoisyFilm larger(32, 8, grey, even_noise, {1, 2});
+    PerceivedSets others(test_device(), rgb_screen(), {});
+    others.go_on_from(sets.kept());
+    EXPECT_THROW(others.of(larger.reach(8), SetSamples(8, 8)), Error);
+}
+
 /// Perceived errors of a dim room with a metal block, even or adaptive, from 144 paths per pixel; mean
 /// square.
 TEST(PerceivedSets, adaptive_sampling_has_less_perceived_error) {

@@ -62,6 +62,14 @@ TEST(RenderCommand, an_incomplete_merge_names_the_samples_that_are_missing) {
     EXPECT_TRUE(fs::exists(folder / "m"));
 }
 
+TEST(RenderCommand, ranges_of_more_samples_than_a_render_takes_are_refused) {
+    for (const std::string range : {"0:4294967296", "0:4294967360", "5:1073741830"}) {
+        const Outcome refused = run_triad("render -q --size 8x8 --samples " + range);
+        EXPECT_EQ(refused.exit, 1) << range;
+        EXPECT_NE(refused.output.find("--samples"), std::string::npos) << refused.output;
+    }
+}
+
 TEST(RenderCommand, shares_of_a_render_add_up_to_it) {
     const TemporaryFolder folder;
     const std::string render = "render --size 40x24 --bins 2x1 --spp 13 --film " + (folder / "").string();
