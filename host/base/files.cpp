@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -181,8 +182,11 @@ bool is_older_than_a_day(const fs::path& path) {
 
 namespace {
 
+std::atomic<bool> uses_temporary_cache = false;
+
 /// The cache folder that this process has when the user's cannot be written.
 fs::path temporary_cache(const std::string& why) {
+    uses_temporary_cache = true;
     static const std::unique_ptr<TemporaryFolder> folder = []() -> std::unique_ptr<TemporaryFolder> {
         try {
             return std::make_unique<TemporaryFolder>();
@@ -197,6 +201,11 @@ fs::path temporary_cache(const std::string& why) {
 }
 
 }  // namespace
+
+bool keeps_cache() {
+    const fs::path folder = cache_folder();
+    return !folder.empty() && !uses_temporary_cache;
+}
 
 fs::path cache_folder() {
     fs::path base;

@@ -61,5 +61,7 @@ bool is_older_than_a_day(const std::filesystem::path& path);
 /// $XDG_CACHE_HOME/triad or ~/.cache/triad, created on demand. Where neither can be written: a temporary
 /// folder of this process, which a warning tells; empty when there is none either (then nothing is cached).
 std::filesystem::path cache_folder();
+/// What is put into that folder is there in later runs, and in other processes.
+bool keeps_cache();
 
 }  // namespace triad

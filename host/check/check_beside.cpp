@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "base/files.h"
 #include "base/log.h"
 #include "base/memory_limit.h"
 #include "base/parallel_for.h"
@@ -31,7 +32,8 @@ Child check_of(const Device& device, const std::string& kernels) {
 
 bool CheckBeside::is_due(const Device& device) {
     if (load_verdict(device.info(), format_of(device), path_driver_of(device))) return false;
-    if (!restarts_allowed() || host_threads() < 2) return false;
+    // Another process tells its verdict by that folder.
+    if (!restarts_allowed() || host_threads() < 2 || !keeps_cache()) return false;
     const std::filesystem::path folder =
         verdict_path(device.info(), format_of(device), path_driver_of(device)).parent_path();
     std::error_code failed;

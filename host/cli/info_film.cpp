@@ -76,7 +76,8 @@ void print(const std::string& path, const SalvagedFilm& found, const SampleNumbe
     std::printf("\n");
     if (film.progress)
         std::printf(
-            "            triad render --resume %s goes on%s\n", path.c_str(),
+            "            triad render --resume %s%s goes on%s\n", path.c_str(),
+            film.progress->ended ? " --time S (or --spp N, or --error E)" : "",
             film.progress->words.empty() ? ", with the scene and the options that it was rendered with" : "");
     std::printf("damage      %s\n", found.damage().empty() ? "none" : found.damage().c_str());
 }

@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/error.h"
 #include "base/file_lock.h"
+#include "base/files.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/program.h"
@@ -169,6 +171,9 @@ Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, OpenD
     whole.frames.reset();
     if (nothing_to_do.empty()) return run(whole, devices, to_go_on);
     FileLock::clear(request.resume_path);  // of a process that was killed when it was done
+    for (const std::string& path : request.outputs)
+        if (!request.frames && !is_there(path))
+            throw Error(Exit::usage, nothing_to_do + " " + path + " is not there, and was not made.");
     inform(nothing_to_do);
     return Exit::done;
 }

@@ -234,7 +234,6 @@ void declare_light(CLI::App& command, RenderRequest& o) {
     command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis, from +x towards +z")
         ->check(number_within(-1e6, 1e6))
         ->type_name("DEG")
-        ->needs(env)
         ->group(light_group);
     command.add_option("--env-strength", o.env_strength, "Brightness of environment or sky (default 1)")
         ->check(number_within(0, limits::brightness))

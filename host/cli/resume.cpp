@@ -98,18 +98,26 @@ std::vector<std::string> words_of_picture(const CLI::App& command) {
 
 RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::string& nothing_to_do) {
     const std::string& path = given.resume_path;
-    const Film film = load_film_header(path);
-    const Words &said = given.words, run = words_of(command, [](const std::string&name) {
-                                         return is_in(of_this_run, name) && !is_in(common, name);
-                                     });
+    Film film = load_film_header(path);
+    Words said = given.words;
+    const Words run = words_of(
+        command, [](const std::string& name) { return is_in(of_this_run, name) && !is_in(common, name); });
     const bool has_goal = std::any_of(said.begin(), said.end(),
                                       [](const std::string& word) { return is_in(goals, name_in(word)); });
     if (!has_goal && (!film.progress || film.progress->ended)) {
-        nothing_to_do = "The film " + path + " is complete" + (film.progress ? " (--time ended it)" : "") +
-                        ": --spp N, --error E or --time S goes on" +
-                        (film.progress ? "" : ", with the scene and the options that it was rendered with") +
-                        "; triad resolve makes pictures of it.";
-        return given;
+        SalvagedFilm found = salvage_film(path);
+        if (found.damage().empty()) {
+            nothing_to_do =
+                "The film " + path + " is complete" + (film.progress ? " (--time ended it)" : "") +
+                ": --spp N, --error E or --time S goes on" +
+                (film.progress ? "" : ", with the scene and the options that it was rendered with") +
+                "; triad resolve makes pictures of it.";
+            return given;
+        }
+        film = std::move(found.film);  // whose progress is what it held
+        if (const FilmProgress& all = *film.progress; all.words.empty())
+            said.push_back("--samples=" + std::to_string(all.samples.begin) + ":" +
+                           std::to_string(all.samples.end));
     }
     Words words = film.progress ? together(path, film.progress->words, said) : said;
     RenderRequest request;

@@ -55,7 +55,8 @@ DisplayPipeline::DisplayPipeline(Device& device, const BinSource& source, const 
       source_(source),
       settings_(settings),
       plan_(settings.taps ? *settings.taps : box_taps(source.bins_x, source.bins_y),
-            settings.alpha && !settings.background),
+            // whoever maps tones puts them on the background, and needs alpha for that
+            settings.background ? settings.order == ToneOrder::per_pixel : settings.alpha),
       shape_(settings.shape.value_or(display_shape(device.info()))) {
     if (plan_.bins_x() != source.bins_x || plan_.bins_y() != source.bins_y)
         throw Error(Exit::usage, "The taps are for " + std::to_string(plan_.bins_x()) + "x" +

@@ -69,6 +69,9 @@ Film load_film(const std::filesystem::path& path) {
     if (!found.damage().empty())
         throw Error(Exit::scene, "Film " + path.string() + " cannot be used: " + found.damage() +
                                      ". triad render --resume " + path.string() +
+                                     (found.film.progress && found.film.progress->words.empty()
+                                          ? ", with the scene and the options that it was rendered with,"
+                                          : "") +
                                      " keeps the rest and renders what is missing again.");
     return std::move(found.film);
 }

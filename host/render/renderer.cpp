@@ -53,7 +53,9 @@ auto timed(double& seconds, const Work& work) {
 /// Settings that are asked for and are not those of the film that is to go on, by name. Throws Error.
 void require_same_settings(const Film& here, const Film& film) {
     if (here.scene != film.scene)
-        throw Error(Exit::scene, "The film is of another scene, or the scene's file has changed since.");
+        throw Error(Exit::scene,
+                    "The film is of another scene than the one that was named (none: the built-in scene), or "
+                    "that scene's file has changed since.");
     if (here.settings_text == film.settings_text) return;
     const auto settings_of = [](const Film& f) {
         const auto parsed = nlohmann::json::parse(f.settings_text, nullptr, false);

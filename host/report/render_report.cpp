@@ -10,7 +10,7 @@ namespace triad {
 namespace {
 
 double mega_rays(const RenderOutcome& outcome) {
-    return double(outcome.film.counters[COUNTER_RAYS]) / outcome.result.seconds / 1e6;
+    return outcome.rays == 0 ? 0 : double(outcome.rays) / outcome.result.seconds / 1e6;
 }
 
 Json rows_of(const std::vector<DeviceWork>& devices) {

@@ -151,6 +151,10 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
     settings.photon_radius = o.photon_radius;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
+    if (o.env_rotate != 0 && !scene.environment)
+        throw Error(
+            Exit::usage,
+            "--env-rotate: the scene has no environment to turn. --env FILE and --look sky bring one.");
     settings.environment_rotation = o.env_rotate * pi / 180;
     settings.environment_strength = o.env_strength;
     check_limits(settings, scene);

@@ -19,8 +19,9 @@ namespace triad {
 /// What a render came to.
 struct RenderOutcome {
     Film film;
-    SampleNumbers numbers;  ///< of the film
-    double relmse = -1;     ///< estimated; negative: not known
+    SampleNumbers numbers;   ///< of the film
+    double relmse = -1;      ///< estimated; negative: not known
+    std::uint64_t rays = 0;  ///< that this render traced: the film may have others of before
     RenderResult result;
 
     bool complete() const { return result.stop != Stop::interrupt; }
@@ -71,6 +72,7 @@ class RenderSession {
     RenderRequest request_;
     std::unique_ptr<FileLock> lock_;  ///< on the film that is written
     double load_seconds_ = 0, resumed_samples_ = 0;
+    std::uint64_t resumed_rays_ = 0;
     LoadedScene loaded_;
     RenderSettings settings_;
     bool check_is_due_ = false;

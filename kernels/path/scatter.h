@@ -73,6 +73,10 @@ TRIAD_FUNCTION int path_scatter(const Scene* scene, PathState* path, const Verte
     scatter_bodies(path, vertex, event);
     path->pdf = (event & BSDF_DELTA) ? 0.0f : density;
     path->traits = scatter_traits(path->traits, path->edge, event);
+#if TRIAD_DIFFUSE_TRANSMISSION
+    /* such a surface shows no alpha but where it is clear: connect_is_alpha() */
+    if (vertex->surface.through > 0.0f && !(event & BSDF_DELTA)) path->traits &= ~PATH_STRAIGHT;
+#endif
     return 1;
 }
 

@@ -58,6 +58,20 @@ TEST(TransparentBackground, a_rough_wall_that_passes_everything_shows_none_of_th
     }
 }
 
+TEST(TransparentBackground, what_is_scattered_through_a_leaf_and_what_is_seen_through_it_are_counted_once) {
+    for (float roughness : {0.0f, 0.5f}) {
+        Material leaf = glass(1.0f, roughness);
+        leaf.thickness = 0;
+        leaf.transmission = 0.5f, leaf.diffuse_transmission = DiffuseTransmission{.factor = 0.8f};
+        Builder b;
+        b.add(square(0, true, 2), leaf);
+        b.scene.environment = EnvironmentMap{8, 4, std::vector<float>(8 * 4 * 3, 1.0f)};
+        const Film over = picture(b.scene, true);
+        EXPECT_NEAR(mean_of(over, 1) + 1 - mean_of(over, 3), mean_of(picture(b.scene, false), 1), 0.01)
+            << roughness;
+    }
+}
+
 TEST(Body, absorbs_on_the_way_to_what_is_inside_it) {
     // An index of 1 bends and reflects nothing: the lamp or the floor inside is seen through half a unit,
     // c^.5.

@@ -121,3 +121,11 @@ TEST_F(FirstPicture, is_checked_before_where_the_check_would_take_its_time_or_it
         EXPECT_EQ(verdicts().size(), 1u);
     }
 }
+
+TEST_F(FirstPicture, is_checked_once_where_no_verdict_can_be_kept) {
+    const Outcome outcome =
+        run_triad("render --size 16x9 --spp 1 -v -o " + picture_.string(), "XDG_CACHE_HOME=/dev/null");
+    EXPECT_EQ(outcome.exit, 0) << outcome.output;
+    EXPECT_NE(outcome.output.find("a few seconds to check"), std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find("beside the picture"), std::string::npos) << outcome.output;
+}

@@ -364,22 +364,36 @@ TEST(RenderCommand, the_environment_turns_from_x_towards_z_and_scales) {
     EXPECT_EQ(seen("0,1000,1", ""), (Colour{0, 0, 0}));
     EXPECT_EQ(seen("0,1000,1", "--env-rotate 90 --env-strength 2"), (Colour{0, 0, 2}));
     EXPECT_EQ(seen("0,1000,-1", "--env-rotate 90"), (Colour{1, 0, 0}));
+    expect_done("render --size 4x4 --spp 1 --look sky --env-rotate 90 " TRIAD_SCENES "/suite/glass.glb -o " +
+                (folder / "a.png").string());
+    EXPECT_EQ(
+        run_triad("render --size 4x4 --spp 1 --env-rotate 90 " TRIAD_SCENES "/cornell/cornell.gltf -o " +
+                  (folder / "a.png").string())
+            .exit,
+        1);
 }
 
 TEST(RenderCommand, the_background_is_transparent_or_the_colour_asked_for) {
     const TemporaryFolder folder;
     const std::string render =
-        "render --size 4x4 --spp 1 --look-at 0,1000,0,1,1000,0 -o " + (folder / "a.png").string();
-    expect_done(render + " --background transparent");
+        "render --size 4x4 --look-at 0,1000,0,1,1000,0 -o " + (folder / "a.png").string();
+    expect_done(render + " --background transparent --spp 1");
     Picture picture = read_picture(folder / "a.png");
     ASSERT_NE(picture.find("A"), nullptr);
     EXPECT_EQ(value(picture, "A", 2, 2), 0);
-    expect_done(render + " --background '#4080c0'");
-    picture = read_picture(folder / "a.png");
-    EXPECT_EQ(picture.find("A"), nullptr);
-    EXPECT_EQ(std::lround(255 * value(picture, "R", 2, 2)), 0x40);
-    EXPECT_EQ(std::lround(255 * value(picture, "G", 2, 2)), 0x80);
-    EXPECT_EQ(std::lround(255 * value(picture, "B", 2, 2)), 0xc0);
+    for (const std::string method :
+         {"--spp 1", "--reconstruct centre", "--reconstruct ssaa:2", "--filter box --bins 1x1",
+          "--filter gaussian", "--filter lanczos", "--filter tent --panel rgb",
+          "--reconstruct random3 --panel rgb", "--reconstruct random3:shared --panel rgb",
+          "--reconstruct pane:2", "--reconstruct pane-encoded:2", "--reconstruct subpixel3 --panel rgb",
+          "--filter gaussian --spp 18 --denoise own"}) {
+        expect_done(render + " --background '#4080c0' " + method);
+        picture = read_picture(folder / "a.png");
+        EXPECT_EQ(picture.find("A"), nullptr);
+        EXPECT_EQ(std::lround(255 * value(picture, "R", 2, 2)), 0x40) << method;
+        EXPECT_EQ(std::lround(255 * value(picture, "G", 2, 2)), 0x80) << method;
+        EXPECT_EQ(std::lround(255 * value(picture, "B", 2, 2)), 0xc0) << method;
+    }
 }
 
 TEST(RenderCommand, a_full_disk_is_a_sentence_and_leaves_the_older_picture) {
