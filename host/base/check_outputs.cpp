@@ -55,6 +55,11 @@ void check_writable(const std::string& path) {
 
 }  // namespace
 
+void refuse_folder(const std::string& scene) {
+    if (is_folder(scene))
+        throw Error(Exit::scene, scene + " is a folder, not a scene; name a .gltf or .glb file.");
+}
+
 void refuse_to_replace(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
     for (const std::string& path : outputs)
         for (const std::string& input : inputs)

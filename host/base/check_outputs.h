@@ -14,6 +14,10 @@ void check_outputs(const std::vector<std::string>& outputs, const std::vector<st
 void check_output_folder(const std::string& folder, const std::vector<std::string>& files,
                          const std::vector<std::string>& inputs);
 
+/// Throws Error(scene) when a scene that is asked for is a folder. Before its outputs are checked: those in
+/// the folder would be taken for files of the scene.
+void refuse_folder(const std::string& scene);
+
 /// Throws Error(usage) when an output would replace an input, whatever their names and links.
 void refuse_to_replace(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 

@@ -83,6 +83,12 @@ std::vector<std::uint8_t> read_file(const fs::path& path, std::uint64_t cap) {
     return bytes;
 }
 
+std::vector<std::uint8_t> read_filled_file(const fs::path& path, std::uint64_t cap) {
+    std::vector<std::uint8_t> bytes = read_file(path, cap);
+    if (bytes.empty()) throw Error(Exit::scene, path.string() + " is empty.");
+    return bytes;
+}
+
 namespace {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
@@ -209,12 +215,13 @@ bool keeps_cache() {
 
 fs::path cache_folder() {
     fs::path base;
-    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && *xdg) {
+    // The specification has relative ones ignored.
+    if (const char* xdg = std::getenv("XDG_CACHE_HOME"); xdg && fs::path(xdg).is_absolute()) {
         base = xdg;
     } else if (const char* home = std::getenv("HOME"); home && *home) {
         base = fs::path(home) / ".cache";
     } else {
-        return temporary_cache("neither XDG_CACHE_HOME nor HOME is set");
+        return temporary_cache("neither XDG_CACHE_HOME (an absolute path) nor HOME is set");
     }
     base /= "triad";
     std::error_code failed;

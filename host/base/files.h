@@ -13,6 +13,9 @@ namespace triad {
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path, std::uint64_t cap = std::uint64_t(16)
                                                                                            << 30);
 
+/// The same of one that must not be empty.
+std::vector<std::uint8_t> read_filled_file(const std::filesystem::path& path, std::uint64_t cap);
+
 /// Whether something, a regular file, a folder is there. What cannot be asked (a name that is too long, a
 /// folder that may not be entered) is not.
 bool is_there(const std::filesystem::path& path);

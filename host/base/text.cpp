@@ -25,6 +25,12 @@ std::string nearest_name(const std::string& word, const std::vector<std::string>
     return nearest;
 }
 
+std::string words_of_json(const std::exception& error) {
+    const std::string what = error.what(), end = "] ";
+    const std::size_t at = what.find(end);
+    return what.starts_with("[json.exception.") && at != what.npos ? what.substr(at + end.size()) : what;
+}
+
 std::string bytes_text(std::uint64_t bytes) {
     const char* const units[] = {"B", "kB", "MB", "GB", "TB"};
     auto value = static_cast<double>(bytes);

@@ -2,6 +2,7 @@
 /// Text with numbers in it.
 #include <cstdint>
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ std::string format(const char* pattern, auto... values) {
 /// The name nearest to `word` when it is likely a slip (two edits at most, less than half of the word), else
 /// "".
 std::string nearest_name(const std::string& word, const std::vector<std::string>& names);
+
+/// What an exception of the JSON library says, without the name of its kind before it.
+std::string words_of_json(const std::exception& error);
 
 /// 1234567 -> "1.2 MB".
 std::string bytes_text(std::uint64_t bytes);

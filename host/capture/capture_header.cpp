@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/hash.h"
+#include "base/text.h"
 #include "base/whole_number.h"
 
 namespace triad {
@@ -198,7 +199,7 @@ Capture capture_of_header(const std::string& text, const ContentAt& content_at, 
         const json counted = header.value("counted", json());
         if (!counted.is_null()) capture.counted = counted.dump();
     } catch (const json::exception& error) {
-        refuse(std::string("its header is not one: ") + error.what());
+        refuse(std::string("its header is not one: ") + words_of_json(error));
     }
     check_capture(capture, refuse);
     return capture;

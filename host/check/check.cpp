@@ -91,7 +91,7 @@ std::vector<CheckCase> cases_of(CheckLevel level, const std::vector<std::string>
         const auto found =
             std::find_if(all.begin(), all.end(), [&](const CheckCase& c) { return c.id == id; });
         if (found == all.end())
-            throw Error(Exit::usage, "There is no case " + id + "; triad check prints the ids of all cases.");
+            throw Error(Exit::usage, "There is no case " + id + "; triad check --list prints all of them.");
         chosen.push_back(*found);
     }
     return chosen;

@@ -195,10 +195,10 @@ void declare(CLI::App& command, BenchErrorOptions& o) {
         .add_option("--options", o.common, "Options of triad render for every run, over those of its scene")
         ->type_name("TEXT");
     command.add_option("--repetitions", o.repetitions, "Runs of each setting, with a seed each (default 5)")
-        ->check(CLI::Range(1, 10000))
+        ->check(whole_number_within(1, 10000))
         ->type_name("N");
     command.add_option("--seed", o.seed, "Of the first repetition; the others count on (default 1)")
-        ->check(CLI::Range(0, 1 << 30))
+        ->check(whole_number_within(0, 1 << 30))
         ->type_name("N");
     command
         .add_option("--against", o.against, "runs.csv of an earlier bench: say what became better or worse")
@@ -229,7 +229,7 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
                    o->size = v;
                });
     command->add_option("--spp", o->spp, "Samples per pixel of the last budget: 1, 2, 4 ... N (default 64)")
-        ->check(CLI::Range(1, 1 << 24))
+        ->check(whole_number_within(1, 1 << 24))
         ->type_name("N");
     command->add_option("--time", o->time, "Begin no budget that would make a run longer than this")
         ->check(number_within(1e-6, 1e9))
@@ -237,7 +237,7 @@ void add_bench_error(CLI::App& bench, Exit& exit) {
     command
         ->add_option("--reference-spp", o->reference_spp,
                      "Samples per pixel of the references at least (default 8 times --spp, 1024 at least)")
-        ->check(CLI::Range(2, 1 << 29))
+        ->check(whole_number_within(2, 1 << 29))
         ->type_name("N");
     command->add_flag(
         "--own-references", o->own_references,

@@ -88,13 +88,13 @@ void add_bench_features(CLI::App& bench, Exit& exit) {
     add_device(*command, o->device);
     add_threads(*command, o->threads);
     command->add_option("--size", o->plan.size, "Pixels across and down (default 128)")
-        ->check(CLI::Range(8, 4096))
+        ->check(whole_number_within(8, 4096))
         ->type_name("N");
     command->add_option("--spp", o->plan.samples, "Samples per pixel and run (default 16)")
-        ->check(CLI::PositiveNumber)
+        ->check(whole_number_within(1, 1 << 30))
         ->type_name("N");
     command->add_option("--repetitions", o->plan.repetitions, "Runs of each program (default 7)")
-        ->check(CLI::Range(1, 1000))
+        ->check(whole_number_within(1, 1000))
         ->type_name("N");
     add_json(*command, o->json);
     add_kernels(*command, o->kernels);

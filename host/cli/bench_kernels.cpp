@@ -70,10 +70,10 @@ void add_bench_kernels(CLI::App& bench, Exit& exit) {
     add_device(*command, o->device);
     add_threads(*command, o->threads, "1; 0: all");
     command->add_option("--items", o->plan.items, "Evaluations of a launch (default 65536)")
-        ->check(CLI::Range(1024, 1 << 24))
+        ->check(whole_number_within(1024, 1 << 24))
         ->type_name("N");
     command->add_option("--rounds", o->plan.rounds, "In which the kernels take turns (default 9)")
-        ->check(CLI::Range(1, 1000))
+        ->check(whole_number_within(1, 1000))
         ->type_name("N");
     command
         ->add_option(
@@ -82,13 +82,13 @@ void add_bench_kernels(CLI::App& bench, Exit& exit) {
             "faster")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::Range(1, 4096))
+        ->check(whole_number_within(1, 4096))
         ->type_name("LIST");
     command
         ->add_option(
             "--run", o->run,
             "One more column: as many items one after the other in each work-item (default 256; 1: none)")
-        ->check(CLI::Range(1, 65536))
+        ->check(whole_number_within(1, 65536))
         ->type_name("N");
     command->add_option("--filter", o->filter, "Only kernels with this in their names")->type_name("TEXT");
     add_json(*command, o->json);

@@ -188,29 +188,31 @@ void add_bench_subpixel(CLI::App& bench, Exit& exit) {
     command->add_option("--rays", o->rays, "Per pixel (default 9,36,144)")
         ->delimiter(',')
         ->allow_extra_args(false)
-        ->check(CLI::Range(1, 4096))
+        ->check(whole_number_within(1, 4096))
         ->type_name("LIST");
     command->add_option("--repetitions", o->repetitions, "With other seeds (default 2)")
-        ->check(CLI::Range(1, 100))
+        ->check(whole_number_within(1, 100))
         ->type_name("N");
     add_parsed(*command, "--size", "WxH", "Of the pictures (default 96x64)", [o](const std::string& v) {
         parse_size("--size", v);
         o->size = v;
     });
     command->add_option("--samples", o->samples, "Of references, per pixel along each axis (default 6)")
-        ->check(CLI::Range(3, 24))
+        ->check(whole_number_within(3, 24))
         ->type_name("N");
     command->add_option("--reference-spp", o->reference_spp, "Rays per sample of references (default 256)")
-        ->check(CLI::Range(1, 65536))
+        ->check(whole_number_within(1, 65536))
         ->type_name("N");
     command->add_option("--synthetic", o->synthetic, "The .exr pictures of a folder, as scenes")
         ->type_name("FOLDER");
     command
         ->add_option("--synthetic-samples", o->synthetic_samples,
                      "Per pixel of those, along each axis (default 12)")
-        ->check(CLI::Range(3, 64))
+        ->check(whole_number_within(3, 64))
         ->type_name("N");
-    command->add_option("--seed", o->seed, "Of the first repetition (default 1)")->type_name("N");
+    command->add_option("--seed", o->seed, "Of the first repetition (default 1)")
+        ->check(whole_number_in_32_bits())
+        ->type_name("N");
     add_device(*command, o->device);
     command
         ->add_option("-o,--output", o->folder, "Folder for report.html, its plots, rows.csv and report.json")

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "capture/capture.h"
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "cli/render_options.h"
 #include "io/io.h"
 #include "session/capture_pass.h"
@@ -29,6 +30,7 @@ struct CaptureOptions {
 Exit run(const CaptureOptions& o) {
     RenderRequest request = o.request;
     if (!request.spp && !request.samples) request.spp = default_samples;
+    refuse_folder(request.scene_path);
     check_outputs({o.output}, request.inputs_named());
     request.film_path = o.output;  // so that no picture is asked for
     const Capture capture = capture_pass(std::move(request));
@@ -59,7 +61,7 @@ void add_capture(CLI::App& app, Exit& exit) {
         ->type_name("FILE")
         ->group("Output");
     command->add_option("--spp", o->request.spp, "Samples per pixel (default 4)")
-        ->check(CLI::Range(std::uint64_t(1), most_samples))
+        ->check(whole_number_within(1, most_samples))
         ->type_name("N")
         ->group(command->get_option("--seed")->get_group());
     command->callback([o, &exit] { exit = run(*o); });

@@ -28,7 +28,9 @@ struct CheckOptions {
 };
 
 /// Every id that --case takes. Asks no device.
-Exit print_cases() {
+Exit print_cases(const CheckOptions& o) {
+    if (!o.json.empty())
+        throw Error(Exit::usage, "--list prints the cases and checks nothing: leave --json out.");
     for (const CheckCase& each : cases_of(CheckLevel::full)) std::printf("%s\n", each.name().c_str());
     return Exit::done;
 }
@@ -50,6 +52,7 @@ Exit run(const CheckOptions& o) {
     if (o.first) end_with_parent();
     check_outputs({o.json}, {o.kernels});
     if (!o.kernels.empty()) kernel_source::set_folder(o.kernels);
+    const std::vector<CheckCase> cases = o.first ? first_cases() : cases_of(o.level, o.only);
     Device device = Device::open({.selector = o.device, .threads = o.threads});
     if (o.level == CheckLevel::tiny) {  // measures nothing: for simulators
         set_format(device, o.format.value_or(default_format(device.info())));
@@ -70,7 +73,6 @@ Exit run(const CheckOptions& o) {
         std::printf("nodes: %s, paths by: %s\n", name_of(format), name_of(path_driver));
         std::printf("%-62s %10s %10s\n", "case", "value", "bound");
     }
-    const std::vector<CheckCase> cases = o.first ? first_cases() : cases_of(o.level, o.only);
     std::vector<CheckResult> results = run_cases(device, cases, o.level, [&](const CheckResult& r) {
         if (lines) print(r);
     });
@@ -135,7 +137,7 @@ void add_check(CLI::App& app, Exit& exit) {
     command->add_flag("--list", o->list, "Print the cases, each with what it asks, and end");
     add_json(*command, o->json);
     add_kernels(*command, o->kernels);
-    command->callback([o, &exit] { exit = o->list ? print_cases() : run(*o); });
+    command->callback([o, &exit] { exit = o->list ? print_cases(*o) : run(*o); });
 }
 
 }  // namespace triad

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/check_outputs.h"
+#include "base/files.h"
 #include "base/log.h"
 #include "base/text.h"
 #include "cli/command_line.h"
@@ -159,15 +160,16 @@ void add_info(CLI::App& app, Exit& exit) {
         ->required()
         ->type_name("");
     command->add_option("--scene", o->scene, "Which scene of the file (default: the one it names)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(whole_number_within(0, 0x7fffffff))
         ->type_name("N");
     add_max_texture(*command, o->max_texture);
     command->add_flag("--strict", o->strict,
                       "Damaged data of the scene (images, normals and the like) are exit code 2");
     add_json(*command, o->json, "Write it");
     command->callback([o, &exit] {
-        check_outputs({o->json}, {o->path});
+        check_outputs({o->json}, {is_folder(o->path) ? "" : o->path});
         try {
+            refuse_folder(o->path);
             exit = is_film(o->path) ? info_film(o->path, o->json)
                                     : run(o->path, o->scene, o->strict, o->max_texture, o->json);
         } catch (const Error& error) {

@@ -107,7 +107,7 @@ void add_merge(CLI::App& app, Exit& exit) {
     command
         ->add_option("--expect-spp", o->expected_spp,
                      "Exit 6 and name the holes unless samples 0 to N are all there")
-        ->check(CLI::PositiveNumber)
+        ->check(whole_number_within(1, 0xffffffff))
         ->type_name("N");
     add_json(*command, o->json, "Write what was merged");
     command->callback([o, &exit] { exit = run(*o); });

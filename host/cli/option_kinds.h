@@ -1,6 +1,7 @@
 #pragma once
 /// Kinds of options that several are of. A bad text is an Error(usage) that names the option.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -9,6 +10,22 @@
 #include "base/error.h"
 
 namespace triad {
+
+/// For options: a whole number from lo to hi. (CLI11's own ranges say of a fraction that it is not within,
+/// and without one a number that its type cannot hold "could not be converted".)
+inline CLI::Validator whole_number_within(std::int64_t lo, std::int64_t hi) {
+    const std::string range = std::to_string(lo) + " to " + std::to_string(hi);
+    return CLI::Validator(
+        [=](const std::string& text) {
+            std::int64_t value = 0;
+            const bool good = CLI::detail::lexical_cast(text, value) && value >= lo && value <= hi;
+            return good ? std::string() : "expected a whole number from " + range + ", not " + text;
+        },
+        range);
+}
+
+/// Any that 32 bits hold.
+inline CLI::Validator whole_number_in_32_bits() { return whole_number_within(0, 0xffffffff); }
 
 /// An option whose text `assign` parses.
 inline CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& form,
@@ -68,6 +85,7 @@ inline CLI::Option* add_threads(CLI::App& command, unsigned& threads,
                                 const std::string& standard = "0: all") {
     return command
         .add_option("--threads", threads, "Cores of a CPU device to use (default " + standard + ")")
+        ->check(whole_number_in_32_bits())
         ->type_name("N");
 }
 

@@ -154,7 +154,7 @@ void add_panel(CLI::App& app, Exit& exit) {
     add_parsed(*command, "--crop", "X,Y,W,H", "The part of the picture",
                [o](const std::string& v) { o->crop = parse_crop("--crop", v); });
     command->add_option("--zoom", o->zoom, "Of the drawing (default 48)")
-        ->check(CLI::Range(1, 256))
+        ->check(whole_number_within(1, 256))
         ->type_name("N");
     command
         ->add_option(

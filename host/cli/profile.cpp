@@ -15,6 +15,7 @@
 #include "cli/command_line.h"
 #include "cli/option_kinds.h"
 #include "cli/render_options.h"
+#include "profile/kernel_changes.h"
 #include "profile/profile_page.h"
 #include "profile/profile_report.h"
 #include "report/profile_maps.h"
@@ -56,6 +57,7 @@ void check(const ProfileOptions& o) {
                     "--device " + o.request.device +
                         ": a profile is of whole devices, one after the other: a number, cpu, gpu "
                         "or part of a name each, with commas between.");
+    refuse_folder(o.request.scene_path);
     std::vector<std::string> inputs = o.request.inputs_named();
     inputs.push_back(o.against);
     check_outputs({o.json, o.trace}, inputs);
@@ -66,16 +68,21 @@ Exit run(ProfileOptions o) {
     check(o);
     o.request.profile = true;
     if (!o.request.spp) o.request.spp = 8;
-    const Json before = o.against.empty() ? Json() : earlier_report(o.against);
+    const Json before = o.against.empty() ? Json() : earlier_report(o.against, "profile");
     keep_spans();
     std::vector<Profile> profiles;
     Json workload;
     const InterruptGuard guard;
-    for (const std::string& device : devices_in(o.request.device)) {
+    const std::vector<std::string> devices = devices_in(o.request.device);
+    for (const std::string& device : devices) {
         RenderRequest request = o.request;
         request.device = device;
         RenderSession session(std::move(request));
         workload = workload_of(session);
+        if (!before.is_null()) {  // nothing is to be measured in vain
+            require_same_work(before, workload);
+            if (devices.size() == 1) require_comparable(before, session.device().info(), o.runs);
+        }
         profiles.push_back(profile(session.renderer(), session.goal(), session.request().seed, o.runs,
                                    [&](unsigned done, unsigned all) {
                                        inform(done == 0 ? "Warmed up"
@@ -94,7 +101,7 @@ Exit run(ProfileOptions o) {
         inform("Page: " + o.folder + "/index.html");
     }
     if (o.against.empty()) return Exit::done;
-    const std::vector<KernelChange> changes = changes_since(before, "profile", profiles, workload);
+    const std::vector<KernelChange> changes = changes_since(before, profiles);
     if (o.json != "-") std::printf("\n%s", table_of(changes).c_str());
     return any_slower(changes) ? Exit::comparison : Exit::done;
 }
@@ -114,7 +121,7 @@ void add_profile(CLI::App& app, Exit& exit) {
     command
         ->add_option("--runs", o->runs,
                      "Of the same picture with other seeds, after one that warms up (default 5)")
-        ->check(CLI::Range(1, 1000))
+        ->check(whole_number_within(1, 1000))
         ->type_name("N")
         ->group(group);
     command->add_option("-o,--output", o->folder, "Write a page, index.html, into this folder")

@@ -58,7 +58,7 @@ void declare(CLI::App& command, ReconstructRequest& o) {
         ->group(group);
     command
         .add_option("--refine", o.refine_steps, "Steps of triad's bounded refinement (default 5; 0: none)")
-        ->check(CLI::Range(0, 1000))
+        ->check(whole_number_within(0, 1000))
         ->type_name("N")
         ->group(group);
 }

@@ -26,7 +26,7 @@ void declare_goals(CLI::App& command, RenderRequest& o) {
         .add_option("--spp", o.spp,
                     "Samples per pixel (default 64; with --error or --time no limit). Of --spp, --error and "
                     "--time, what is reached first ends the render")
-        ->check(CLI::Range(std::uint64_t(1), most_samples))
+        ->check(whole_number_within(1, most_samples))
         ->type_name("N")
         ->group(samples_group);
     command.add_option("--error", o.error, "Stop when the estimated relMSE of the picture is this low")
@@ -50,6 +50,7 @@ void declare_paths(CLI::App& command, RenderRequest& o) {
     command
         .add_option("--max-depth", o.max_depth,
                     "Longest path in edges: 1 emitters only, 2 direct light (default 0: no limit)")
+        ->check(whole_number_in_32_bits())
         ->type_name("N")
         ->group(paths_group);
     command
@@ -79,7 +80,7 @@ void declare_photons(CLI::App& command, RenderRequest& o) {
             "--photons", o.photons,
             "Photons with every sample of the picture (default: one for each pixel; auto: as few as a small "
             "picture shows to be best); of photon-map: in all (default: a million)")
-        ->check(CLI::Range(std::uint64_t(1), std::uint64_t(0xffffffff)))
+        ->check(whole_number_within(1, 0xffffffff))
         ->type_name("N")
         ->group(paths_group);
     command
@@ -100,6 +101,7 @@ void declare_photons(CLI::App& command, RenderRequest& o) {
 
 void declare_sampler(CLI::App& command, RenderRequest& o) {
     command.add_option("--seed", o.seed, "Of the random numbers (default 0)")
+        ->check(whole_number_in_32_bits())
         ->type_name("N")
         ->group(samples_group);
     add_choice<bool>(
@@ -257,6 +259,7 @@ void declare_machine(CLI::App& command, RenderRequest& o) {
         ->type_name("SEL[/N],...|all")
         ->group(machine_group);
     command.add_option("--threads", o.threads, "Cores to use, here and on CPU devices (default 0: all)")
+        ->check(whole_number_in_32_bits())
         ->type_name("N")
         ->group(machine_group);
     add_format(command, o.format)->group(machine_group);

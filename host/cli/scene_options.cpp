@@ -12,7 +12,7 @@ const char* const scene_group = "Scene";
 
 void declare_scene(CLI::App& command, RenderRequest& o) {
     command.add_option("--scene", o.scene_index, "Which scene of the file (default: the one it names)")
-        ->check(CLI::NonNegativeNumber)
+        ->check(whole_number_within(0, 0x7fffffff))
         ->type_name("N")
         ->group(scene_group);
     command

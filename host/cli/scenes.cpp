@@ -19,6 +19,9 @@ const std::string place = "%s";
 
 /// Every scene writes files of its own.
 void require_names(const RenderRequest& all, const std::vector<std::string>& scenes) {
+    if (all.pixel)
+        throw Error(Exit::usage,
+                    "--pixel takes one scene, and here are " + std::to_string(scenes.size()) + ".");
     std::vector<std::string> paths = all.outputs;
     paths.insert(paths.end(), {all.film_path, all.resume_path, all.json_path});
     for (const std::string& path : paths)

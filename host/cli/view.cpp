@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cli/command_line.h"
+#include "cli/option_kinds.h"
 #include "cli/output_options.h"
 #include "cli/render_options.h"
 #include "cli/resume.h"
@@ -42,7 +43,7 @@ void add_view(CLI::App& app, Exit& exit) {
     for (const char* refused : {"--samples", "--pixel", "--denoise"}) command->get_option(refused)->group("");
     const char* const group = "Page";
     command->add_option("--port", o->port, "Of 127.0.0.1, where the page is (default: any that is free)")
-        ->check(CLI::Range(0, 65535))
+        ->check(whole_number_within(0, 65535))
         ->type_name("N")
         ->group(group);
     command->add_flag("--no-browser", *no_browser, "Print the page's address, and open no browser")

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "base/whole_number.h"
 #include "kernels/types.h"
 
@@ -128,7 +129,7 @@ Film film_of_header(const std::string& header, ProgressSizes& sizes,
     try {
         return film_of(json::parse(header), sizes, refuse);
     } catch (const json::exception& e) {
-        refuse(std::string("its header is damaged (") + e.what() + ")");
+        refuse(std::string("its header is damaged (") + words_of_json(e) + ")");
     }
     return {};  // refuse throws
 }

@@ -24,6 +24,18 @@ Film rows_like(const Film& film, unsigned begin, unsigned end) {
     return rows;
 }
 
+/// In words: all rows that are lost from block `first` on, which is.
+std::string damage_from(FilmReader& reader, std::size_t first) {
+    SalvagedFilm found;
+    for (std::size_t i = first; i < block_count(reader.film()); ++i) {
+        const unsigned begin = unsigned(i * FILM_TILE),
+                       end = std::min(begin + FILM_TILE, reader.film().height);
+        Film rows = rows_like(reader.film(), begin, end);
+        if (!reader.read(i, rows_of(rows, 0))) found.lost.push_back({begin, end});
+    }
+    return found.damage();
+}
+
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& more) {
     to.insert(to.end(), more.begin(), more.end());
@@ -90,8 +102,7 @@ MergedFilm merge_films(const std::vector<std::filesystem::path>& parts, const st
             for (std::size_t part = 0; part < readers.size(); ++part) {
                 Film rows = rows_like(headers[part], begin, end);
                 if (!readers[part].read(i, rows_of(rows, 0)))
-                    readers[part].refuse("rows " + std::to_string(begin) + " to " + std::to_string(end - 1) +
-                                         " of its crop are damaged or missing. triad render --resume " +
+                    readers[part].refuse(damage_from(readers[part], i) + ". triad render --resume " +
                                          names[part] + " renders them again");
                 const std::uint64_t count = headers[part].sample_count();
                 for (const std::uint32_t n : rows.samples)

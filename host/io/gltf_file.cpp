@@ -16,7 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::uint64_t file_cap = std::uint64_t(4) << 30;    // bytes of one file
 constexpr std::uint64_t total_cap = std::uint64_t(16) << 30;  // bytes of all files of a scene
 constexpr std::size_t large_text = 1 << 20;
 constexpr std::uint64_t free_budget = std::uint64_t(192) << 20;
@@ -273,7 +272,7 @@ Bytes File::view(int buffer_view, const std::string& what) const {
 }
 
 json read_document(const fs::path& path) {
-    const std::vector<std::uint8_t> bytes = triad::read_file(path, file_cap);
+    const std::vector<std::uint8_t> bytes = read_container(path);
     json document = parse_json(split_container(bytes).json);
     check_header(document);
     check_document(document);
@@ -287,7 +286,7 @@ Error named(const Error& error, const fs::path& path) {
 
 File read_file(const fs::path& path) {
     File file;
-    file.storage.push_back(triad::read_file(path, file_cap));
+    file.storage.push_back(read_container(path));
     file.budget = free_budget;
     file.instances = free_instances + file.storage.front().size();
     const Container container = split_container(file.storage.front());

@@ -3,6 +3,9 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "io/film_blocks.h"
 
 namespace triad::gltf {
 namespace {
@@ -40,6 +43,16 @@ void check_depth(std::string_view text) {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> read_container(const std::filesystem::path& path) {
+    std::vector<std::uint8_t> bytes = read_filled_file(path, file_cap);
+    if (bytes.size() >= sizeof film_magic && std::memcmp(bytes.data(), film_magic, sizeof film_magic) == 0)
+        fail(path.string() +
+             " is a film of Triad, not a scene: triad resolve makes pictures of it, and triad render "
+             "--resume " +
+             path.string() + " goes on with it.");
+    return bytes;
+}
 
 Container split_container(Bytes file) {
     constexpr std::uint32_t json_chunk = 0x4e4f534a, bin_chunk = 0x004e4942;
@@ -91,7 +104,7 @@ nlohmann::json parse_json(std::string_view text) {
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) {
-        fail(std::string("The file is not valid JSON: ") + e.what() + ".");
+        fail(std::string("The file is not valid JSON: ") + words_of_json(e) + ".");
     }
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 /// The untrusted text of a glTF file: its container, its JSON, and every check that needs the JSON alone.
 #include <cstdint>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace triad::gltf {
 
@@ -16,6 +18,11 @@ struct Container {
     Bytes binary;             ///< the BIN chunk of a .glb
     bool has_binary = false;  ///< false: .gltf, or a .glb without BIN chunk
 };
+
+constexpr std::uint64_t file_cap = std::uint64_t(4) << 30;  ///< bytes of one file
+
+/// The bytes of a .gltf or .glb. Throws Error(scene) when there are none, or when they are those of a film.
+std::vector<std::uint8_t> read_container(const std::filesystem::path& path);
 
 /// Tells .glb from .gltf by the first bytes and takes a .glb apart. Throws Error(scene) for a damaged
 /// container, Error(unsupported) for another container version.

@@ -188,7 +188,7 @@ Panel panel_of_json(std::string_view text, const std::string& where) {
             return true;
         });
     } catch (const nlohmann::json::exception& error) {
-        throw Error(Exit::scene, where + " is not valid JSON: " + error.what() + ".");
+        throw Error(Exit::scene, where + " is not valid JSON: " + words_of_json(error) + ".");
     }
     try {
         return panel_of({json, "panel"});

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "page/aligned.h"
 
@@ -13,11 +11,6 @@ namespace triad {
 namespace {
 
 using Lines = std::vector<std::vector<std::string>>;
-
-/// Of a kernel that takes less than this share of the time no change matters.
-constexpr double least_share = 0.01;
-/// Of two processes on a quiet machine: the clock's and the caches' moods.
-constexpr double between_processes = 1.03;
 
 Json number(double v) { return std::isfinite(v) && v > 0 ? Json(v) : Json(); }
 
@@ -113,13 +106,6 @@ std::string side_by_side(const std::vector<Profile>& profiles) {
     lines.push_back({"the whole run"});
     for (const Profile& p : profiles) lines.back().push_back(format("%.1f", 1e3 * median(p.seconds_of_runs)));
     return aligned(lines, 1);
-}
-
-std::vector<double> logarithms(const std::vector<double>& values) {
-    std::vector<double> logs;
-    for (const double v : values)
-        if (v > 0) logs.push_back(std::log(v));
-    return logs;
 }
 
 }  // namespace
@@ -241,60 +227,6 @@ Json devices_of(const std::vector<Profile>& profiles) {
              {"compilations", compiled}});
     }
     return devices;
-}
-
-Json earlier_report(const std::string& path) {
-    const std::vector<std::uint8_t> file = read_file(path, 1u << 28);
-    Json json = Json::parse(file.begin(), file.end(), nullptr, false);
-    if (json.is_discarded()) throw Error(Exit::scene, "--against " + path + ": that is no JSON.");
-    return json;
-}
-
-std::vector<KernelChange> changes_since(const Json& before, const std::string& command,
-                                        const std::vector<Profile>& profiles, const Json& workload) {
-    if (!before.is_object() || before.value("schema", "") != "triad." + command + "/1" ||
-        !before.contains("rows"))
-        throw Error(Exit::scene, "--against: that is no --json of this command.");
-    if (before.value("workload", Json()) != workload)
-        throw Error(Exit::usage,
-                    "--against: that report is of other work: " + before.value("workload", Json()).dump() +
-                        ", here " + workload.dump() + ".");
-    std::vector<KernelChange> changes;
-    for (const Profile& p : profiles)
-        for (const KernelRow& r : p.rows)
-            for (const Json& old : before["rows"]) {
-                if (old.value("kernel", "") != r.kernel || old.value("device", "") != p.device.name ||
-                    old.value("driver", "") != p.device.driver)
-                    continue;
-                const std::vector<double> then = old.value("ms_of_runs", std::vector<double>());
-                if (logarithms(then).size() < 2 || logarithms(r.ms_of_runs).size() < 2) continue;
-                KernelChange c{r.kernel,
-                               p.device.name,
-                               median(then),
-                               r.ms.value,
-                               ratio_estimate(logarithms(then), logarithms(r.ms_of_runs)),
-                               false};
-                c.is_slower = r.share >= least_share && c.ratio.low > between_processes;
-                changes.push_back(c);
-            }
-    if (changes.empty())
-        throw Error(Exit::usage,
-                    "--against: that report has no kernel of this device and driver, or of a "
-                    "single run; both need two or more.");
-    return changes;
-}
-
-std::string table_of(const std::vector<KernelChange>& changes) {
-    Lines lines{{"kernel", "device", "ms before", "ms now", "ratio", "95 %", ""}};
-    for (const KernelChange& c : changes)
-        lines.push_back({c.kernel, c.device, format("%.1f", c.before_ms), format("%.1f", c.now_ms),
-                         format("%.3f", c.ratio.value), format("%.3f to %.3f", c.ratio.low, c.ratio.high),
-                         c.is_slower ? "slower" : ""});
-    return aligned(lines, 2);
-}
-
-bool any_slower(const std::vector<KernelChange>& changes) {
-    return std::any_of(changes.begin(), changes.end(), [](const KernelChange& c) { return c.is_slower; });
 }
 
 }  // namespace triad

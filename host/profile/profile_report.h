@@ -1,5 +1,5 @@
 #pragma once
-/// A profile as text, as JSON, and beside an earlier one.
+/// A profile as text and as JSON.
 #include <string>
 #include <vector>
 
@@ -31,22 +31,5 @@ Json devices_of(const std::vector<Profile>& profiles);
 /// Trace Event Format, which Perfetto and chrome://tracing show: the host's threads and the device's queue on
 /// one time line, microseconds from the first span on.
 Json trace_of(const Profile& profile, const std::vector<HostSpan>& spans);
-
-/// A kernel now and in an earlier report.
-struct KernelChange {
-    std::string kernel, device;
-    double before_ms = 0, now_ms = 0;  ///< of a run
-    Estimate ratio;                    ///< now over before
-    bool is_slower = false;            ///< beyond noise, and one that matters
-};
-
-/// Those that both have. `before`: what --json of `command` ("profile", "replay") wrote. Throws Error(scene)
-/// when it is no such report, Error(usage) when it is of other work.
-std::vector<KernelChange> changes_since(const Json& before, const std::string& command,
-                                        const std::vector<Profile>& profiles, const Json& workload);
-/// Throws Error(scene) when it is no JSON.
-Json earlier_report(const std::string& path);
-std::string table_of(const std::vector<KernelChange>& changes);
-bool any_slower(const std::vector<KernelChange>& changes);
 
 }  // namespace triad

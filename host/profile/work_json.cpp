@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/whole_number.h"
 
 namespace triad {
@@ -42,7 +43,8 @@ WorkCounts work_counts_of(const std::string& text) {
         }
         return counts;
     } catch (const json::exception& error) {
-        throw Error(Exit::scene, std::string("The capture's counted work is damaged: ") + error.what() + ".");
+        throw Error(Exit::scene,
+                    std::string("The capture's counted work is damaged: ") + words_of_json(error) + ".");
     }
 }
 

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "capture/capture.h"
 #include "check/check.h"
+#include "profile/kernel_changes.h"
 #include "profile/profile_page.h"
 #include "profile/profile_report.h"
 #include "replay/captured_shape.h"
@@ -136,7 +137,7 @@ bool report(const Profile& p, const ReplayRequest& o, const Json& before, Json m
         lines.say("Page: " + o.folder + "/index.html\n");
     }
     if (before.is_null()) return false;
-    const std::vector<KernelChange> changes = changes_since(before, "replay", {p}, more.at("workload"));
+    const std::vector<KernelChange> changes = changes_since(before, {p});
     lines.say("\n" + table_of(changes));
     return any_slower(changes);
 }
@@ -154,7 +155,7 @@ void check_paths(const ReplayRequest& o) {
 
 Exit replay(const ReplayRequest& o) {
     check_paths(o);
-    const Json before = o.against.empty() ? Json() : earlier_report(o.against);
+    const Json before = o.against.empty() ? Json() : earlier_report(o.against, "replay");
     Capture capture = read_capture(o.capture);
     const std::optional<WorkCounts> counted = counted_work(capture);
     const Lines lines(o.json != "-");
@@ -179,11 +180,13 @@ Exit replay(const ReplayRequest& o) {
                    {"version", capture.origin.version}}},
                  {"workload", workload_of(capture, o)},
                  {"changed_programs", changed}};
+    if (!before.is_null()) require_same_work(before, more.at("workload"));
     if (o.check) more["check"] = check(o, capture, lines);
 
     Device device = Device::open({.selector = o.device, .threads = o.threads, .profile = true});
     lines.say(format("Replayed on %s, %s, driver %s\n", device.info().name.c_str(),
                      device.info().platform.c_str(), device.info().driver.c_str()));
+    if (!before.is_null()) require_comparable(before, device.info(), o.repeat);
     Replayer replayer(device, capture);
     replayer.run();
     const ReplayedFilm film = replayer.film();

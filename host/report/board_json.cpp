@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "base/whole_number.h"
 
 namespace triad {
@@ -102,7 +103,7 @@ std::vector<Board> read_boards(const std::filesystem::path& path) {
     try {
         boards = boards_of(json);
     } catch (const std::exception& error) {
-        refuse(error.what());
+        refuse(words_of_json(error));
     }
     if (boards.empty()) refuse("there is no board in it");
     return boards;

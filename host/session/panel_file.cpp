@@ -23,7 +23,7 @@ bool is_file(const std::string& name) {
 Panel panel_named(const std::string& name_or_file) {
     if (auto panel = builtin_panel(name_or_file)) return *panel;
     if (is_file(name_or_file)) {
-        const auto bytes = read_file(name_or_file, file_cap);
+        const auto bytes = read_filled_file(name_or_file, file_cap);
         return panel_of_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name_or_file);
     }
     std::string list;

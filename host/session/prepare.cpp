@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -253,15 +254,22 @@ std::vector<Device> open_devices(const RenderRequest& o, bool* check_is_due) {
     if (wanted.size() > 1 || wanted.front().parts > 1) check_is_due = nullptr;
     std::vector<Device> devices;
     std::exception_ptr failed;
+    std::set<std::size_t> named;
+    std::string twice;
     for (const Device::Settings& settings : wanted) {
         try {
             devices.push_back(opened(o, settings, check_is_due));
+            const DeviceInfo& info = devices.back().info();
+            if (settings.part == 0 && !named.insert(info.index).second) twice = info.name;
         } catch (const Error& error) {
             if (wanted.size() == 1 || error.exit() == Exit::usage) throw;
             failed = std::current_exception();
             warn(std::string(error.what()) + " It is left out.");
         }
     }
+    if (!twice.empty())
+        warn("--device " + o.device + " names " + twice +
+             " more than once: it shares the picture with itself.");
     if (devices.empty()) {
         if (failed) std::rethrow_exception(failed);
         throw Error(Exit::device, "There is no usable OpenCL device (triad devices says why).");

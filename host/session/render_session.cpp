@@ -32,6 +32,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 /// Everything that can be wrong is found before the long part.
 RenderRequest checked(RenderRequest request) {
     complete(request);
+    refuse_folder(request.scene_path);
     check_outputs(request.outputs_named(), request.inputs_named());
     prepare_to_write(request.outputs);
     const std::string& film = request.film_path;

@@ -97,6 +97,11 @@ TEST(CaptureCommand, a_replay_reports_what_a_profile_does_and_what_became_slower
         for (Json& ms : each["ms_of_runs"]) ms = 0.1 * ms.get<double>();
     std::ofstream(json) << report;
     EXPECT_EQ(run_replay(file + " --repeat 2 --against " + json).exit, 7);
+    const Outcome early = run_replay(file + " --repeat 1 --against " + json);
+    EXPECT_EQ(early.exit, 1) << early.output;
+    EXPECT_NE(early.output.find("need two or more"), std::string::npos) << early.output;
+    EXPECT_EQ(early.output.find("median ms"), std::string::npos) << early.output;  // nothing was measured
+    EXPECT_EQ(run_replay(file + " --against '" TRIAD_SCENES "/suite/glass.glb'").exit, 2);
     EXPECT_EQ(run_replay(file + " --repeat 2 --single-kernel wave_end_paths --against " + json).exit, 1);
     EXPECT_EQ(run_replay(file + " --repeat 0 --against " + json).exit, 1);
     EXPECT_EQ(run_replay(file + " --json " + file).exit, 1);

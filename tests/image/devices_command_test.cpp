@@ -73,6 +73,21 @@ TEST(DevicesCommand, what_cannot_be_is_said) {
                 "at least one part");
 }
 
+TEST(DevicesCommand, one_that_is_named_twice_is_told_once) {
+    if (cpu().empty()) GTEST_SKIP() << "there is no CPU device of several cores";
+    const TemporaryFolder folder;
+    const std::string render =
+        "render --size 16x16 --spp 4 -o " + (folder / "a.png").string() + " --device " + cpu();
+    for (const std::string& more : {"," + cpu(), "," + cpu() + "," + cpu(), "/2," + cpu()}) {
+        const Outcome outcome = run_triad(render + more);
+        EXPECT_EQ(outcome.exit, 0) << outcome.output;
+        const auto at = outcome.output.find("more than once");
+        ASSERT_NE(at, std::string::npos) << more << "\n" << outcome.output;
+        EXPECT_EQ(outcome.output.find("more than once", at + 1), std::string::npos) << outcome.output;
+    }
+    EXPECT_EQ(run_triad(render + "/2").output.find("more than once"), std::string::npos);
+}
+
 TEST(DevicesCommand, all_is_every_piece_of_hardware_once) {
     const TemporaryFolder folder;
     const fs::path json = folder / "a.json";

@@ -165,6 +165,34 @@ TEST(ProfileCommand, what_became_slower_ends_with_7_and_other_work_is_not_compar
     expect_profile(1, "--device all");
 }
 
+TEST(ProfileCommand, what_cannot_be_compared_is_found_before_anything_is_measured) {
+    const TemporaryFolder folder;
+    const fs::path now = folder / "now.json", other = folder / "other.json", trace = folder / "trace.json";
+    expect_profile(0, "--json " + now.string());
+    const auto refused = [&](int exit, const json& report, const std::string& sentence, int runs = 3) {
+        std::ofstream(other) << report;
+        const Outcome outcome = run_triad("profile --size 64x48 --spp 4 -q --runs " + std::to_string(runs) +
+                                          " --trace " + trace.string() + " --against " + other.string());
+        EXPECT_EQ(outcome.exit, exit) << outcome.output;
+        EXPECT_NE(outcome.output.find(sentence), std::string::npos) << outcome.output;
+        EXPECT_FALSE(fs::exists(trace));
+    };
+    const json report = json_of(now);
+    json changed = report;
+    changed["schema"] = 1;
+    refused(2, changed, "no --json of this command");
+    for (const char* rows : {"7", "[7]", R"([{"kernel": 7}])", R"([{"ms_of_runs": ["a"]}])"}) {
+        changed = report, changed["rows"] = json::parse(rows);
+        refused(2, changed, "no --json of this command");
+    }
+    changed = report, changed["workload"]["spp"] = 5;
+    refused(1, changed, "other work");
+    changed = report;
+    for (json& row : changed["rows"]) row["device"] = "another";
+    refused(1, changed, "no kernel of this device");
+    refused(1, report, "need two or more", 1);
+}
+
 TEST(ProfileCommand, the_page_needs_nothing_from_outside) {
     const TemporaryFolder folder;
     expect_profile(0, "-o " + (folder / "page").string());

@@ -64,6 +64,20 @@ TEST(CommandLine, bad_values_are_named) {
     expect("check --format no", 1, "--format no: expected bvh8 or bvh4");
 }
 
+TEST(CommandLine, a_number_that_is_not_whole_or_too_large_is_told_what_is_taken) {
+    const std::string wanted = "expected a whole number from 0 to 4294967295, not ";
+    for (const std::string option : {"--seed", "--threads", "--max-depth"}) {
+        for (const std::string number : {"-1", "4294967296", "99999999999999999999", "1.5", "many"})
+            expect("render " + option + " " + number, 1, option + ": " + wanted + number);
+        expect("render -o x.bmp " + option + " 4294967295", 1, "x.bmp");
+    }
+    expect("check --threads -1", 1, "--threads: " + wanted + "-1");
+    for (const std::string number : {"1e3", "0", "-1", "1073741825", "99999999999999999999"})
+        expect("render --spp " + number, 1,
+               "--spp: expected a whole number from 1 to 1073741824, not " + number);
+    expect("info a.glb --scene -1", 1, "--scene: expected a whole number from 0 to 2147483647, not -1");
+}
+
 TEST(CommandLine, numbers_that_float_cannot_work_with_are_named) {
     expect("render --look-at 1e300,0,0,0,0,0", 1, "--look-at 1e300,0,0,0,0,0");
     expect("render --look-at 0,0,0,0,-2e12,0", 1, "up to 1e+12");
@@ -82,6 +96,19 @@ TEST(CommandLine, missing_files_are_scene_errors) {
     expect("info /no/such/file.glb", 2, "/no/such/file.glb");
     expect("merge /no/such.film -o /tmp/x.triadfilm", 2, "/no/such.film");
     expect("compare /no/such.exr /no/such.exr", 2, "/no/such.exr");
+}
+
+TEST(CommandLine, a_folder_is_no_scene_whatever_is_below_it) {
+    const TemporaryFolder folder;
+    const std::string above = folder.path().string(), below = (folder / "below").string();
+    fs::create_directory(below);
+    const std::string there = "cd '" + below + "' &&";
+    std::ofstream(folder / "below/x.png") << "a picture";
+    for (const std::string& arguments :
+         {"render " + above + " -o x.png", "info " + above + " --json x.png",
+          "capture " + above + " -o x.png", "profile " + above + " --json x.png"})
+        expect(arguments, 2, above + " is a folder, not a scene", there);
+    EXPECT_EQ(bytes_of(folder / "below/x.png"), "a picture");
 }
 
 TEST(CommandLine, what_info_refuses_it_tells_in_its_json) {
@@ -111,9 +138,19 @@ TEST(CommandLine, no_driver_is_a_device_error) {
 
 TEST(CommandLine, the_list_of_cases_asks_no_device) {
     expect("check --list", 0, "M1 sin and cos", "OCL_ICD_VENDORS=/no/such/folder");
+    expect("check --list --json -", 1, "--list prints the cases and checks nothing: leave --json out");
     expect("check --quick --full", 1, "--quick");
     expect("check --first --full", 1, "--f");
     expect("check --first --case C1", 1, "--first");
+}
+
+TEST(CommandLine, a_case_that_is_not_there_is_found_before_a_device_is_asked) {
+    expect("check --case C1,ZZ", 1, "There is no case ZZ; triad check --list prints all of them.",
+           "OCL_ICD_VENDORS=/no/such/folder");
+}
+
+TEST(CommandLine, a_pixel_is_of_one_scene) {
+    expect("render a.glb b.glb --pixel 3,4", 1, "--pixel takes one scene, and here are 2.");
 }
 
 TEST(CommandLine, options_for_every_run_of_a_bench_override_those_of_its_scenes) {

@@ -170,6 +170,10 @@ TEST(FilmMerge, names_what_does_not_fit_and_keeps_the_older_file) {
     expect_contains(merging(Exit::scene, {"a", "b", "stranger"}), (folder / "stranger").string() + " and ");
     expect_contains(merging(Exit::scene, {"a", "b", "uneven"}), (folder / "uneven").string());
     expect_contains(merging(Exit::scene, {"a", "damaged"}), "rows 8 to 15");
+    bytes[bytes.size() - 1] ^= 1;  // and the last rows
+    write_file(folder / "twice damaged", std::string(bytes.begin(), bytes.end()));
+    expect_contains(merging(Exit::scene, {"a", "twice damaged"}),
+                    salvage_film(folder / "twice damaged").damage() + ". triad render --resume ");
     expect_contains(merging(Exit::scene, {"a", "nothing"}), "nothing");
     EXPECT_EQ(read_file(folder / "m.film"), before);
 }

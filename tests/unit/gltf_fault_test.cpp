@@ -14,6 +14,7 @@
 #include "base/memory_limit.h"
 #include "gltf_builder.h"
 #include "program.h"
+#include "synthetic_film.h"
 #include "tiny_png.h"
 
 using namespace triad;
@@ -143,6 +144,30 @@ TEST(GltfFault, files_of_other_kinds_are_told_for_what_they_are_not) {
         EXPECT_EQ(info.exit, 2);
         EXPECT_NE(info.output.find("not glTF"), std::string::npos) << info.output;
     }
+}
+
+TEST(GltfFault, files_without_a_byte_or_without_json_are_told_in_plain_words) {
+    const GltfBuilder b;
+    const std::string file = (b.folder / "a.gltf").string();
+    std::ofstream(file).flush();
+    for (const std::string command : {"info ", "render "})
+        EXPECT_NE(run_triad(command + file).output.find("triad: " + file + " is empty."), std::string::npos);
+    std::ofstream(file) << "{\"asset\": ";
+    const Outcome info = run_triad("info " + file);
+    EXPECT_EQ(info.exit, 2);
+    EXPECT_NE(info.output.find("The file is not valid JSON: parse error at line 1"), std::string::npos)
+        << info.output;
+}
+
+TEST(GltfFault, a_film_is_told_for_what_it_is) {
+    const GltfBuilder b;
+    const std::string film = (b.folder / "a.film").string();
+    triad::save_film(film, synthetic({0, 4}));
+    const Outcome outcome = run_triad("render " + film + " -o " + (b.folder / "y.png").string());
+    EXPECT_EQ(outcome.exit, 2);
+    for (const std::string& words :
+         {film + " is a film of Triad", std::string("triad resolve"), "triad render --resume " + film})
+        EXPECT_NE(outcome.output.find(words), std::string::npos) << outcome.output;
 }
 
 TEST(GltfFault, many_instances_are_no_bomb_but_a_list_that_many_nodes_share_is) {

@@ -141,4 +141,8 @@ TEST(PanelFile, is_read_by_name_or_path_and_slips_get_a_hint) {
     EXPECT_NE(sentence("qdoled").find("Did you mean qd-oled?"), std::string::npos) << sentence("qdoled");
     EXPECT_NE(sentence("rgb@45").find("@90"), std::string::npos);
     EXPECT_NE(sentence("absent.json").find("absent.json"), std::string::npos);
+    std::ofstream(path) << "{";
+    EXPECT_TRUE(sentence(path).starts_with(path + " is not valid JSON: parse error")) << sentence(path);
+    std::ofstream(path, std::ios::trunc).flush();
+    EXPECT_EQ(sentence(path), path + " is empty.");
 }
