@@ -1,9 +1,10 @@
 // triad merge: joins partial renders. Films are sums of integers, so that the order of the parts does not
 // matter.
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/check_outputs.h"
 #include "base/error.h"
@@ -30,37 +31,49 @@ void require_film(const std::string& path) {
     if (!is_film(path) && is_picture(path)) refuse_for_panel(path, read_picture(path).metadata, "merge");
 }
 
-/// A film that is replaced must be no loss: all that it holds is in the parts. What is there and is no film
-/// that can be read holds nothing.
-void require_no_loss(const std::string& output, const std::vector<std::string>& parts) {
-    if (!is_file(output) || !is_film(output)) return;
-    std::optional<Film> there;
-    try {
-        there = load_film_header(output);
-    } catch (const Error&) {
-        return;
-    }
+/// Ranges of all parts that are of the film's picture.
+std::vector<SampleRange> held_of(const Film& film, const std::vector<Film>& parts) {
     std::vector<SampleRange> held;
-    for (const std::string& part : parts) {
-        std::error_code failed;
-        if (std::filesystem::equivalent(part, output, failed)) return;
-        const Film film = load_film_header(part);
-        if (film.settings == there->settings && film.scene == there->scene)
-            held.insert(held.end(), film.ranges.begin(), film.ranges.end());
-    }
+    for (const Film& part : parts)
+        if (part.settings == film.settings && part.scene == film.scene)
+            held.insert(held.end(), part.ranges.begin(), part.ranges.end());
     std::sort(held.begin(), held.end(),
               [](const SampleRange& a, const SampleRange& b) { return a.begin < b.begin; });
-    bool is_loss = there->progress.has_value();
-    for (const SampleRange& range : there->ranges) {
+    return held;
+}
+
+/// Whether the film holds anything that the parts do not.
+bool holds_more(const Film& film, const std::vector<Film>& parts) {
+    if (film.progress || !film.is_even()) return true;
+    if (film.has_guides &&
+        std::none_of(parts.begin(), parts.end(), [](const Film& p) { return p.has_guides; }))
+        return true;
+    const std::vector<SampleRange> held = held_of(film, parts);
+    for (const SampleRange& range : film.ranges) {
         std::uint64_t until = range.begin;
         for (const SampleRange& part : held)
             if (part.begin <= until) until = std::max(until, part.end);
-        is_loss = is_loss || until < range.end;
+        if (until < range.end) return true;
     }
-    if (is_loss)
+    return false;
+}
+
+/// A film that is replaced must be no loss. What is there and is no film that can be read holds nothing.
+void require_no_loss(const std::string& output, const std::vector<std::string>& parts) {
+    if (!is_file(output)) return;
+    std::optional<Film> there;
+    try {
+        if (!is_film(output)) return;
+        there = load_film(output);
+    } catch (const Error&) {
+        return;
+    }
+    std::vector<Film> headers;
+    for (const std::string& part : parts) headers.push_back(load_film_header(part));
+    if (holds_more(*there, headers))
         throw Error(Exit::usage, "The film " + output +
-                                     " is there already, and holds what these films do not: merge it in, "
-                                     "remove it, or name another output.");
+                                     " is there already, and holds what these films do not. Name another "
+                                     "output, or remove it.");
 }
 
 Exit run(const MergeOptions& o) {

@@ -160,8 +160,11 @@ Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& 
     }
 }
 
+/// Of one that is complete, a picture that is not there is an error, or is told: others come after it.
+enum class Missing { refused, told };
+
 Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, OpenDevices& devices,
-                    const std::string& to_go_on) {
+                    const std::string& to_go_on, Missing missing = Missing::refused) {
     if (request.resume_path.empty()) return run(request, devices, to_go_on);
     std::string nothing_to_do;
     RenderRequest whole = resumed(command, request, nothing_to_do);
@@ -171,9 +174,12 @@ Exit begin_or_go_on(const CLI::App& command, const RenderRequest& request, OpenD
     whole.frames.reset();
     if (nothing_to_do.empty()) return run(whole, devices, to_go_on);
     FileLock::clear(request.resume_path);  // of a process that was killed when it was done
-    for (const std::string& path : request.outputs)
-        if (!request.frames && !is_there(path))
-            throw Error(Exit::usage, nothing_to_do + " " + path + " is not there, and was not made.");
+    for (const std::string& path : request.outputs) {
+        if (path != "-" && is_there(path)) continue;
+        nothing_to_do += path == "-" ? " Nothing was written to standard output."
+                                     : " " + path + " is not there, and was not made.";
+        if (missing == Missing::refused) throw Error(Exit::usage, nothing_to_do);
+    }
     inform(nothing_to_do);
     return Exit::done;
 }
@@ -185,8 +191,8 @@ Exit render_frames(const CLI::App& command, const RenderRequest& all) {
     for (std::uint64_t frame = all.frames->begin; frame < all.frames->end; ++frame) {
         const RenderRequest one = frame_of(all, frame);
         inform(format("Frame %llu, at %.6g s", static_cast<unsigned long long>(frame), one.pose_time));
-        if (const Exit exit =
-                begin_or_go_on(command, one, devices, command_that_goes_on(command, all, frame));
+        if (const Exit exit = begin_or_go_on(command, one, devices, command_that_goes_on(command, all, frame),
+                                             Missing::told);
             exit != Exit::done)
             return exit;
     }

@@ -233,7 +233,9 @@ void declare_light(CLI::App& command, RenderRequest& o) {
                    if (v != "auto") o.ground = v == "on";
                })
         ->group(light_group);
-    command.add_option("--env-rotate", o.env_rotate, "Turn it about the vertical axis, from +x towards +z")
+    command
+        .add_option("--env-rotate", o.env_rotate,
+                    "Turn environment or sky about the vertical axis, from +x towards +z")
         ->check(number_within(-1e6, 1e6))
         ->type_name("DEG")
         ->group(light_group);

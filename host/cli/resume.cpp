@@ -114,10 +114,16 @@ RenderRequest resumed(const CLI::App& command, const RenderRequest& given, std::
                 "; triad resolve makes pictures of it.";
             return given;
         }
-        film = std::move(found.film);  // whose progress is what it held
-        if (const FilmProgress& all = *film.progress; all.words.empty())
-            said.push_back("--samples=" + std::to_string(all.samples.begin) + ":" +
-                           std::to_string(all.samples.end));
+        const bool is_ended = film.progress.has_value();
+        film = std::move(found.film);
+        const FilmProgress& held = *film.progress;  // of one that was not ended: its samples
+        if (held.words.empty() && is_ended)
+            throw Error(Exit::usage, "Film " + path + ": " + found.damage() +
+                                         ". To have them rendered again give the scene, the options and a "
+                                         "goal (--spp N, --error E or --time S).");
+        if (held.words.empty())
+            said.push_back("--samples=" + std::to_string(held.samples.begin) + ":" +
+                           std::to_string(held.samples.end));
     }
     Words words = film.progress ? together(path, film.progress->words, said) : said;
     RenderRequest request;

@@ -160,11 +160,11 @@ RenderSettings with_photon_pilot(const DeviceScenes& scenes, const RenderSetting
         for (std::size_t i = 0; !choice; ++i) {
             try {
                 choice = chosen(scenes[i], settings, small);
+                if (i == 0) keep_pilot(device, about, *choice);
             } catch (const DeviceError&) {  // another may do it; that this one cannot is told when it renders
                 if (i + 1 == scenes.size()) throw;
             }
         }
-        keep_pilot(device, about, *choice);
     }
     RenderSettings result = settings;
     if (choice->paths) result.integrator = Integrator::path;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <exception>
 
+#include "base/log.h"
 #include "base/spans.h"
 
 namespace triad {
@@ -12,8 +14,6 @@ namespace {
 
 /// Samples of a pixel in one launch at most.
 constexpr double longest_run = 256;
-/// Between two reports within a pass, where one takes long.
-constexpr double seconds_between_reports = 1;
 
 double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -41,7 +41,7 @@ RenderLoop::RenderLoop(Renderer::State& state, const RenderGoal& goal,
       is_dealt_with_(state.tracers.size()),
       next_delivery_(seconds_between_deliveries),
       next_kept_(goal.keep.seconds),
-      next_report_(seconds_between_reports) {
+      next_report_(goal.report_seconds) {
     std::uint64_t before = 0;
     for (const SampleRange& range : film().ranges) {
         if (range.begin == goal_.samples.begin) continue;
@@ -73,7 +73,11 @@ RenderResult RenderLoop::run() {
         if (photons().is_classic()) make_classic_map();
         work_through_rounds();
     } catch (...) {
-        keep_what_was_delivered();
+        try {
+            keep_what_was_delivered();
+        } catch (const std::exception& error) {
+            warn(error.what());
+        }
         throw;
     }
     const double rendered = seconds(), processor = processor_seconds() - processor_start;
@@ -162,8 +166,9 @@ void RenderLoop::reach(const SetSamples& wanted) {
 }
 
 void RenderLoop::report() {
-    interrupted_ = !report_(progress()) || interrupted_;
-    next_report_ = seconds() + seconds_between_reports;
+    if (interrupted_) return;  // whoever said so is not asked again
+    interrupted_ = !report_(progress());
+    next_report_ = seconds() + goal_.report_seconds;
 }
 
 /// Within a pass, by the thread that render_until() was called by, with the launcher's mutex locked.

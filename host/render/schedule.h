@@ -35,7 +35,8 @@ struct RenderGoal {
     /// not known yet.
     std::function<std::optional<double>(const Film&)> perceived_noise;
     bool follow = true;  ///< estimate the error now and then for reports, also where nothing is decided by it
-    double photon_share = 1;  ///< of the photons of a sample: so many are traced, and stand for all
+    double report_seconds = 1;  ///< between two reports within a pass, where one takes long
+    double photon_share = 1;    ///< of the photons of a sample: so many are traced, and stand for all
     /// What adaptive sampling lowers; empty: the relMSE. Shown the film with one sample in every bin, with
     /// two, and at the end of every round; each set holds so many.
     std::shared_ptr<SetErrorSource> set_errors;

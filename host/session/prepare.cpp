@@ -116,6 +116,10 @@ void prepare_scene(const RenderRequest& o, Scene& scene) {
         validate(scene);
     }
     light_as_asked(o, scene);
+    if (o.env_rotate != 0 && !scene.environment)
+        throw Error(
+            Exit::usage,
+            "--env-rotate: the scene has no environment to turn. --env FILE and --look sky bring one.");
 }
 
 Scene load_scene(const RenderRequest& o) {
@@ -152,10 +156,6 @@ RenderSettings settings_of(const RenderRequest& o, const Scene& scene) {
     settings.photon_radius = o.photon_radius;
     settings.transparent = o.transparent;
     settings.view = choose_view(o, scene, camera, size);
-    if (o.env_rotate != 0 && !scene.environment)
-        throw Error(
-            Exit::usage,
-            "--env-rotate: the scene has no environment to turn. --env FILE and --look sky bring one.");
     settings.environment_rotation = o.env_rotate * pi / 180;
     settings.environment_strength = o.env_strength;
     check_limits(settings, scene);

@@ -215,7 +215,7 @@ void RenderSession::film_first(const Film& film, const Work& work) {
         try {
             if (!request_.film_path.empty()) save_film(request_.film_path, film);
         } catch (const std::exception& error) {
-            warn(std::string(error.what()) + " The film as it was last written stays.");
+            warn(error.what());
         }
         throw;
     }

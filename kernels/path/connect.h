@@ -27,17 +27,17 @@ typedef struct PendingLight {
 
 /* Whether what lies in that direction is alpha, however it is found: the camera sees it through the surface.
  */
-TRIAD_FUNCTION int connect_is_alpha(const Scene* scene, const PathState* path, const Vertex* vertex,
+TRIAD_FUNCTION int connect_is_alpha(const Scene* scene, const PathState* path, const VertexBsdf* v,
                                     const LightSample* light, float side) {
 #if TRIAD_ENVIRONMENT_MAP
     /* inverse_pdf 0: no map */
 #if TRIAD_DIFFUSE_TRANSMISSION
-    if (vertex->surface.through > 0.0f) return 0; /* scattered, not seen */
+    if (v->bsdf.base.p_through > 0.0f) return 0; /* scattered, not seen: BSDF_CLOUDED */
 #endif
     return (path->traits & PATH_STRAIGHT) && side < 0.0f && scene->frame->transparent && light->distant &&
            light->inverse_pdf > 0.0f;
 #else
-    (void)scene, (void)path, (void)vertex, (void)light, (void)side;
+    (void)scene, (void)path, (void)v, (void)light, (void)side;
     return 0;
 #endif
 }
@@ -75,7 +75,7 @@ TRIAD_FUNCTION int path_connect(const Scene* scene, const PathState* path, const
     const float side = vec3_dot(light.direction, vertex->ng);
     const Vec3 wi = frame_to_local(&v->frame, light.direction);
     /* the shading normal must not move light through the surface */
-    if (!(side * wi.z > 0.0f) || connect_is_alpha(scene, path, vertex, &light, side)) return 0;
+    if (!(side * wi.z > 0.0f) || connect_is_alpha(scene, path, v, &light, side)) return 0;
 
     float bsdf_pdf;
     const Colour reflected = colour_mul(path->throughput, path_eval(scene, path, vertex, v, wi, &bsdf_pdf));

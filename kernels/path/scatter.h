@@ -32,7 +32,7 @@ TRIAD_FUNCTION void scatter_bodies(PathState* path, const Vertex* vertex, uint e
 }
 
 TRIAD_FUNCTION uint scatter_traits(uint traits, uint edge, uint event) {
-    if (!(event & BSDF_TRANSMIT) || (event & BSDF_DIFFUSE)) traits &= ~PATH_STRAIGHT;
+    if (!(event & BSDF_TRANSMIT) || (event & (BSDF_DIFFUSE | BSDF_CLOUDED))) traits &= ~PATH_STRAIGHT;
     if (!(event & BSDF_DELTA)) traits &= ~PATH_SPECULAR;
 #if TRIAD_PHOTONS
     const int delta = (event & BSDF_DELTA) != 0u,
@@ -73,10 +73,6 @@ TRIAD_FUNCTION int path_scatter(const Scene* scene, PathState* path, const Verte
     scatter_bodies(path, vertex, event);
     path->pdf = (event & BSDF_DELTA) ? 0.0f : density;
     path->traits = scatter_traits(path->traits, path->edge, event);
-#if TRIAD_DIFFUSE_TRANSMISSION
-    /* such a surface shows no alpha but where it is clear: connect_is_alpha() */
-    if (vertex->surface.through > 0.0f && !(event & BSDF_DELTA)) path->traits &= ~PATH_STRAIGHT;
-#endif
     return 1;
 }
 

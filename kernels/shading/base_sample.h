@@ -150,6 +150,9 @@ TRIAD_FUNCTION BsdfSample base_sample(const BaseBsdf* b, Vec3 wo, float u_throug
         }
         if (through ? s.wi.z >= 0.0f : s.wi.z <= 0.0f) return s; /* single scattering ends in the surface */
         s.event = (b->smooth ? BSDF_DELTA : BSDF_GLOSSY) | (through ? BSDF_TRANSMIT : 0u);
+#if TRIAD_DIFFUSE_TRANSMISSION
+        if (through && b->p_through > 0.0f && !b->smooth) s.event |= BSDF_CLOUDED;
+#endif
         if (b->smooth) {
             float p = b->p_specular * (through ? 1.0f - reflect : reflect);
             s.weight = colour_div(through ? transmitted : reflected, colour_splat(p));

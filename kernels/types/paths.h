@@ -60,6 +60,7 @@ TRIAD_SIZE(PhotonFrame, 72);
 #define BSDF_GLOSSY 2u
 #define BSDF_DELTA 4u
 #define BSDF_TRANSMIT 8u /* together with one of the others: wi is beyond the surface */
+#define BSDF_CLOUDED 16u /* together with BSDF_GLOSSY and that: where Lambert's lobe leads, too */
 
 /* Why a path ends at a vertex. */
 #define PATH_GOES_ON 0u

@@ -111,17 +111,30 @@ TEST(Abandon, several_devices_leave_samples_with_photons_in_their_middle) {
     expect_same_bytes(alone.film(), renderer.film(), "after what was abandoned");
 }
 
-TEST(Abandon, reports_come_from_the_thread_that_renders) {
-    TwoDevices devices;
-    Renderer renderer(devices.all(), caustic(), by_photons());
+TEST(Abandon, who_says_stop_within_a_pass_is_asked_by_the_thread_that_renders_and_not_again) {
     const std::thread::id here = std::this_thread::get_id();
-    unsigned within = 0, elsewhere = 0;
-    renderer.render_until({.samples = {0, 1u << 20}, .follow = false}, [&](const Progress& progress) {
-        elsewhere += std::this_thread::get_id() != here;
-        return ++within < 3 && progress.seconds < 60;
-    });
-    EXPECT_EQ(within, 3u);
-    EXPECT_EQ(elsewhere, 0u);
+    const Scene scene = analytic::varied_scene();
+    TwoDevices devices;
+    Renderer shared(devices.all(), scene, settings_of_several_launches());
+    Renderer alone(test_device(), scene, settings_of_several_launches());
+    for (Renderer* renderer : {&shared, &alone}) {
+        unsigned calls = 0, elsewhere = 0;
+        double samples = 0;
+        renderer->render_until({.samples = {0, 256}, .follow = false, .report_seconds = 0},
+                               [&](const Progress& progress) {
+                                   elsewhere += std::this_thread::get_id() != here;
+                                   ++calls, samples = progress.samples;
+                                   return false;
+                               });
+        EXPECT_EQ(calls, 1u);
+        EXPECT_EQ(elsewhere, 0u);
+        const SampleNumbers numbers = renderer->film().sample_numbers();
+        EXPECT_EQ(numbers.least, numbers.most) << "the pass is ended";
+        EXPECT_LT(numbers.most, 256u);
+        if (renderer == &alone) {
+            EXPECT_LT(samples, numbers.mean);
+        }
+    }
 }
 
 }  // namespace

@@ -55,6 +55,14 @@ TEST_F(FilmCommand, of_a_complete_film_no_picture_is_missing_in_silence) {
     expect_contains(said("render --resume a.film -o b.png", 1), "b.png is not there");
 }
 
+TEST_F(FilmCommand, frames_go_on_beyond_complete_ones_without_pictures) {
+    said("render -q " + knot + " --spp 2 -o a.png --film a.film --frames 0:1", 0);
+    fs::remove(folder_ / "a.0000.png");
+    expect_contains(said("render " + knot + " -o a.png --resume a.film --frames 0:2", 0),
+                    "a.0000.png is not there");
+    EXPECT_TRUE(fs::exists(folder_ / "a.0001.png"));
+}
+
 TEST_F(FilmCommand, what_a_film_says_to_go_on_by_goes_on) {
     said("render -q " + knot + " --time 0.1 --film a.film -o a.png", 0);
     expect_contains(said("info a.film", 0), "--resume a.film --time S");
@@ -69,7 +77,9 @@ TEST_F(FilmCommand, a_merge_replaces_no_film_that_holds_more) {
     said(render + "b.film --samples 2:4", 0);
     said(render + "more.film --samples 0:6", 0);
     said(render + "other.film --samples 0:2 --max-depth 3", 0);
-    for (const std::string film : {"more.film", "other.film"}) {
+    said(render + "adaptive.film --spp 4 --adaptive on", 0);
+    said(render + "guided.film --samples 0:2 --denoise own", 0);
+    for (const std::string film : {"more.film", "other.film", "adaptive.film", "guided.film"}) {
         const std::string before = bytes_of(folder_ / film);
         expect_contains(said("merge a.film b.film -o " + film, 1), "holds what these films do not");
         EXPECT_TRUE(bytes_of(folder_ / film) == before);
