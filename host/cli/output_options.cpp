@@ -1,8 +1,10 @@
 #include "cli/output_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "base/log.h"
 #include "cli/command_line.h"
 #include "cli/option_kinds.h"
 #include "cli/render_options.h"
@@ -59,6 +61,23 @@ void declare_style(CLI::App& command, OutputStyle& style) {
         [&style](const std::string& v) { style.denoise = denoiser_named(v); })
         ->group(output_group);
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
+}
+
+void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs, bool for_panel) {
+    const auto any = [&](const auto& is_such) {
+        return std::ranges::any_of(outputs,
+                                   [&](const std::string& path) { return is_such(picture_extension(path)); });
+    };
+    const bool toned = style.automatic_exposure || style.exposure != 0 || style.tone_map != "khronos";
+    if (toned && !for_panel && !any([](const std::string& e) { return !is_linear_format(e); }))
+        warn(
+            "--exposure and --tonemap change nothing here: they are for .png and .jpg, and .exr and .hdr "
+            "hold "
+            "radiance.");
+    if (style.bits != 8 && !any([](const std::string& e) { return e == ".png"; }))
+        warn("--bits changes nothing here: it is for .png.");
+    if (style.half && !any([](const std::string& e) { return e == ".exr"; }))
+        warn("--half changes nothing here: it is for .exr.");
 }
 
 void declare_background(CLI::App& command, OutputStyle& style) {

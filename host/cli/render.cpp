@@ -13,6 +13,7 @@
 #include "base/text.h"
 #include "cli/command_line.h"
 #include "cli/frames.h"
+#include "cli/output_options.h"
 #include "cli/render_options.h"
 #include "cli/resume.h"
 #include "cli/scenes.h"
@@ -79,6 +80,12 @@ void describe(RenderSession& session) {
                   bytes_text(renderer.device_bytes()).c_str()));
     const bool told = session.request().integrator == Integrator::automatic && renderer.photons() > 0;
     (told ? inform : detail)("Integrator: " + renderer.integrator());
+    const RenderRequest& asked = session.request();
+    if (asked.integrator == Integrator::automatic && renderer.photons() == 0 &&
+        (asked.photons > 0 || asked.photon_radius > 0 || !asked.aim_photons))
+        warn(
+            "--photons, --photon-radius and --photon-aim change nothing here: paths bring all light "
+            "(--integrator photons takes photons).");
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 }
 
@@ -201,6 +208,11 @@ Exit render_frames(const CLI::App& command, const RenderRequest& all) {
 
 Exit render(const CLI::App& command, RenderRequest request, const std::vector<std::string>& scenes) {
     request.words = words_of_picture(command);
+    const bool by_default =
+        request.outputs.empty() && request.film_path.empty() && request.resume_path.empty();
+    if (!request.pixel)
+        warn_of_idle(request.style, by_default ? std::vector<std::string>{default_output} : request.outputs,
+                     !request.reconstruct.panel.empty());
     OpenDevices devices;
     if (scenes.size() > 1)
         return for_each_scene(command, request, scenes,

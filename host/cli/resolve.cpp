@@ -22,8 +22,14 @@ struct ResolveOptions {
     bool toned = false;  ///< --exposure or --tonemap was given
 };
 
+void tell_of_background(const ResolveOptions& o, bool alpha) {
+    if (o.style.background && !alpha)
+        warn("--background changes nothing here: nothing in " + o.source + " is transparent.");
+}
+
 void resolve_film(ResolveOptions& o) {
     const Film film = load_film(o.source);
+    tell_of_background(o, has_alpha(film));
     o.style.reconstruction = reconstruction_for(film, o.source, o.reconstruct);
     check_format_for(o.style.reconstruction, o.outputs);
     Device device = Device::open({.selector = o.device});
@@ -56,12 +62,15 @@ void resolve_image(ResolveOptions& o) {
     Device device = Device::open({.selector = o.device});
     Metadata metadata = {{"triad:version", TRIAD_VERSION}, {"Software", "triad " TRIAD_VERSION}};
     describe(method, metadata);
-    write_outputs(o.outputs, device, image, picture.find("A") != nullptr, o.style, metadata);
+    const bool alpha = picture.find("A") != nullptr;
+    tell_of_background(o, alpha);
+    write_outputs(o.outputs, device, image, alpha, o.style, metadata);
 }
 
 Exit run(ResolveOptions o) {
     for (const std::string& path : o.outputs) check_format(path);
     check_outputs(o.outputs, {o.source, o.reconstruct.panel});
+    warn_of_idle(o.style, o.outputs, !o.reconstruct.panel.empty());
     if (is_film(o.source))
         resolve_film(o);
     else

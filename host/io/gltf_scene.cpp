@@ -28,7 +28,10 @@ class SceneBuilder {
           choice_(choice),
           nodes_(file, pose_at(file, choose_animation(file, choice.animation), choice.time)),
           materials_(file, scene_),
-          meshes_(file, scene_, materials_, find_variant(file, choice.variant)) {}
+          meshes_(file, scene_, materials_, find_variant(file, choice.variant)) {
+        if (choice.time != 0 && file.model.animations.empty())
+            file.warn("The file has no animation: --pose-time and --frames change nothing.");
+    }
 
     Scene build() {
         const auto& scenes = file_.model.scenes;

@@ -21,16 +21,6 @@ namespace fs = std::filesystem;
 namespace triad {
 namespace {
 
-std::string extension_of(const std::string& path) {
-    if (path == "-") return ".png";
-    std::string extension = fs::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return extension;
-}
-
-bool is_linear_format(const std::string& extension) { return extension == ".exr" || extension == ".hdr"; }
-
 /// What outputs are made of; each form is made when it is first asked for.
 struct Source {
     Picture window;      ///< sizes only
@@ -71,16 +61,26 @@ void write_standard_output(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-bool is_exr(const std::string& path) { return extension_of(path) == ".exr"; }
+std::string picture_extension(const std::string& path) {
+    if (path == "-") return ".png";
+    std::string extension = fs::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return char(std::tolower(c)); });
+    return extension;
+}
+
+bool is_linear_format(const std::string& extension) { return extension == ".exr" || extension == ".hdr"; }
+
+bool is_exr(const std::string& path) { return picture_extension(path) == ".exr"; }
 
 void prepare_to_write(const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
-        if (const std::string extension = extension_of(path); extension != ".png" && extension != ".exr")
+        if (const std::string extension = picture_extension(path); extension != ".png" && extension != ".exr")
             load_picture_formats();
 }
 
 bool is_picture(const std::string& path) {
-    const std::string extension = extension_of(path);
+    const std::string extension = picture_extension(path);
     for (const char* known : {".exr", ".hdr", ".png", ".jpg", ".jpeg"})
         if (extension == known) return true;
     return false;
@@ -95,7 +95,7 @@ void check_format(const std::string& path) {
 
 void check_format_for(const Reconstruction& method, const std::vector<std::string>& paths) {
     for (const std::string& path : paths)
-        if (method.panel && extension_of(path) == ".hdr")
+        if (method.panel && picture_extension(path) == ".hdr")
             throw Error(Exit::usage,
                         "-o " + path +
                             ": .hdr files cannot say which panel they were made for, and on others "
@@ -170,7 +170,7 @@ void write_all(const std::vector<std::string>& paths, Source source, const Outpu
     std::optional<Picture> linear_picture;
     std::optional<EncodedPicture> display;
     for (const std::string& path : paths) {
-        const std::string extension = extension_of(path);
+        const std::string extension = picture_extension(path);
         if (is_linear_format(extension)) {
             if (!linear_picture) {
                 linear_picture = linear(source, style, metadata);

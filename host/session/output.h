@@ -28,7 +28,11 @@ struct OutputStyle {
 /// Error(memory).
 void prepare_to_write(const std::vector<std::string>& paths);
 
+/// In lower case, with its dot; of "-" (standard output) ".png".
+std::string picture_extension(const std::string& path);
 bool is_exr(const std::string& path);
+/// Whether files of that extension hold radiance, before any tone map.
+bool is_linear_format(const std::string& extension);
 /// Whether the extension is that of a picture.
 bool is_picture(const std::string& path);
 /// Throws Error(usage) when `path` ("-" is standard output, as PNG) has no extension of a picture.

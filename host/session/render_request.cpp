@@ -79,7 +79,7 @@ void complete(RenderRequest& o) {
         throw Error(Exit::usage, "--checkpoint is how often a film is written: name one with --film.");
     // A film alone is a complete result: a part of a larger render.
     if (!o.pixel && !o.profile && !o.in_memory && o.outputs.empty() && o.film_path.empty())
-        o.outputs.push_back("triad.png");
+        o.outputs.push_back(default_output);
     for (const std::string& path : o.outputs) check_format(path);
     if (std::find(o.aovs.begin(), o.aovs.end(), "all") != o.aovs.end())
         o.aovs = {"albedo", "normal", "position", "depth", "samples", "variance", "error"};

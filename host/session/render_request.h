@@ -19,6 +19,9 @@ namespace triad {
 /// What the fixed point of the film has room for.
 constexpr std::uint64_t most_samples = 1u << 30;
 
+/// The picture where none is named.
+constexpr const char* default_output = "triad.png";
+
 struct RenderRequest {
     std::string scene_path;  ///< empty: the built-in scene
     std::vector<std::string> outputs;

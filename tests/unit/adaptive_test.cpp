@@ -171,6 +171,21 @@ TEST(Adaptive, samples_go_everywhere_where_noise_promises_too_little) {
     EXPECT_EQ(distribute(128, 64, s, uneven, 64, 2, 10).samples, SetSamples(2 * 16 * 8, 64)) << "even again";
 }
 
+TEST(Adaptive, even_samples_go_on_to_a_power_of_two_where_noise_promises_little_more) {
+    const Film film = sized(128, 64);
+    std::vector<float> errors(film.pixels());
+    for (std::size_t p = 0; p < errors.size(); ++p) errors[p] = p % 128 < 88 ? 1.0f : 9.0f;
+    const auto by_noise = [&](std::uint32_t had, double mean) {
+        const SetSamples have(2 * 16 * 8, had);
+        return distribute(128, 64, relmse_of_sets(film, errors, have), have, mean, 2, 1.3).by_noise;
+    };
+    EXPECT_TRUE(by_noise(64, 80));
+    EXPECT_TRUE(by_noise(96, 108));
+    EXPECT_FALSE(by_noise(96, 120)) << "from where 128 is near";
+    EXPECT_FALSE(by_noise(96, 128));
+    EXPECT_TRUE(by_noise(128, 160));
+}
+
 TEST(Adaptive, no_set_loses_starves_or_takes_all) {
     const Film film = sized(61, 37);
     std::vector<float> errors(film.pixels(), 1e-9f);
