@@ -23,7 +23,8 @@ RenderRequest frame_of(const RenderRequest& all, std::uint64_t frame) {
     one.frames.reset();
     one.pose_time = double(frame) / all.fps;
     one.words.push_back("--pose-time=" + format("%.17g", one.pose_time));
-    if (one.outputs.empty() && one.film_path.empty() && one.resume_path.empty()) one.outputs = {default_output};
+    if (one.outputs.empty() && one.film_path.empty() && one.resume_path.empty())
+        one.outputs = {default_output};
     for (std::string& path : one.outputs) path = numbered(path, frame);
     for (std::string* path : {&one.film_path, &one.resume_path, &one.json_path})
         *path = numbered(*path, frame);

@@ -52,8 +52,9 @@ void report_counters(const Film& film, unsigned max_depth) {
                       static_cast<unsigned long long>(n[COUNTER_TRUNCATED]), max_depth));
 }
 
-/// A scene whose own light is weak gets a black picture; that is right, and no fault of the reader's.
-void tell_darkness(const Film& film, double exposure) {
+/// A scene whose own light is weak gets a black picture; that is right, and no fault of the reader's. Exposed
+/// by itself only what has no light at all is dark.
+void tell_darkness(const Film& film, const OutputStyle& style) {
     constexpr double dark = 0.03, mid_grey = 0.18;
     double sum = 0, coverage = 0;
     for (std::size_t p = 0; p < film.pixels(); ++p) {
@@ -61,10 +62,11 @@ void tell_darkness(const Film& film, double exposure) {
         sum += 0.2126 * mean[0] + 0.7152 * mean[1] + 0.0722 * mean[2], coverage += mean[3];
     }
     if (!(coverage > 0)) return;
-    const double shown = sum / coverage * std::exp2(exposure);
-    if (!(shown < dark)) return;
+    const double shown = sum / coverage * std::exp2(style.exposure);
+    if (style.automatic_exposure ? shown > 0 : !(shown < dark)) return;
     const std::string exposed =
-        shown > 0 ? format("--exposure %.0f brightens it, and ", exposure + std::log2(mid_grey / shown)) : "";
+        shown > 0 ? format("--exposure %.0f brightens it, and ", style.exposure + std::log2(mid_grey / shown))
+                  : "";
     inform("The picture is nearly black, since the scene's own light is weak: " + exposed +
            "--look studio or --env FILE lights the scene.");
 }
@@ -133,7 +135,7 @@ Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& 
            (film.bins() == 1 ? " bin per pixel" : " bins per pixel"));
     session.write(outcome);
     report_counters(film, request.max_depth);
-    if (!request.style.automatic_exposure) tell_darkness(film, request.style.exposure);
+    tell_darkness(film, request.style);
     if (!request.json_path.empty())
         write_report(request.json_path, "render", &session.device().info(),
                      Json::array({render_row(session, outcome)}));

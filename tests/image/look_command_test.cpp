@@ -79,6 +79,8 @@ TEST(LookCommand, a_weak_lamp_gets_a_sentence_with_the_remedy) {
     const std::string render = "render --size 32x24 --spp 4 -o " + (folder / "a.png").string() + " ";
     expect_exit(0, render + (folder / "weak.gltf").string(), "--look studio or --env FILE");
     expect_exit(0, render + (folder / "weak.gltf").string() + " --look studio");
+    expect_exit(0, render + (folder / "weak.gltf").string() + " --max-depth 1 --exposure auto",
+                "--look studio or --env FILE");
     const Outcome strong = run_triad(render + (folder / "strong.gltf").string());
     EXPECT_EQ(strong.output.find("nearly black"), std::string::npos) << strong.output;
 }

@@ -13,7 +13,6 @@
 #include "io/io.h"
 #include "program.h"
 #include "running.h"
-#include "unit/gltf_builder.h"
 #include "unit/temporary_folder.h"
 
 namespace fs = std::filesystem;
@@ -32,117 +31,6 @@ float value(const Picture& picture, const std::string& channel, unsigned x, unsi
 }
 
 }  // namespace
-
-TEST(RenderCommand, three_uneven_ranges_in_any_order_give_the_bytes_of_one_run) {
-    for (const std::string bins : {"1x1", "2x2"}) {
-        const TemporaryFolder folder;
-        const std::string render = "render --size 40x24 --bins " + bins + " --film " + (folder / "").string();
-        expect_done(render + "whole --samples 0:24");
-        expect_done(render + "a --samples 0:4");
-        expect_done(render + "b --samples 4:20");
-        expect_done(render + "c --samples 20:24");
-        const std::string whole = bytes_of(folder / "whole");
-        for (const char* order : {"a b c", "a c b", "b a c", "b c a", "c a b", "c b a"}) {
-            const Outcome merged = run_triad("merge " + std::string(order) + " -o m --expect-spp 24",
-                                             "cd '" + (folder / "").string() + "';");
-            ASSERT_EQ(merged.exit, 0) << merged.output;
-            EXPECT_TRUE(bytes_of(folder / "m") == whole) << order << ", bins " << bins;
-        }
-    }
-}
-
-TEST(RenderCommand, an_incomplete_merge_names_the_samples_that_are_missing) {
-    const TemporaryFolder folder;
-    const std::string render = "render --size 8x8 --film " + (folder / "").string();
-    expect_done(render + "a --samples 0:2");
-    expect_done(render + "b --samples 5:8");
-    const Outcome merged = run_triad("merge b a -o m --expect-spp 9", "cd '" + (folder / "").string() + "';");
-    EXPECT_EQ(merged.exit, 6) << merged.output;
-    EXPECT_NE(merged.output.find("--samples 2:5 --samples 8:9"), std::string::npos) << merged.output;
-    EXPECT_TRUE(fs::exists(folder / "m"));
-}
-
-TEST(RenderCommand, ranges_of_more_samples_than_a_render_takes_are_refused) {
-    for (const std::string range : {"0:4294967296", "0:4294967360", "5:1073741830"}) {
-        const Outcome refused = run_triad("render -q --size 8x8 --samples " + range);
-        EXPECT_EQ(refused.exit, 1) << range;
-        EXPECT_NE(refused.output.find("--samples"), std::string::npos) << refused.output;
-    }
-}
-
-TEST(RenderCommand, shares_of_a_render_add_up_to_it) {
-    const TemporaryFolder folder;
-    const std::string render = "render --size 40x24 --bins 2x1 --spp 13 --film " + (folder / "").string();
-    expect_done(render + "whole");
-    std::string parts;
-    for (const std::string share : {"0/3", "1/3", "2/3"}) {
-        parts += " part" + share.substr(0, 1);
-        expect_done(render + "part" + share.substr(0, 1) + " --samples share:" + share);
-    }
-    const Outcome merged =
-        run_triad("merge" + parts + " -o m --expect-spp 14", "cd '" + (folder / "").string() + "';");
-    EXPECT_EQ(merged.exit, 0) << merged.output;
-    EXPECT_TRUE(bytes_of(folder / "m") == bytes_of(folder / "whole"));
-    expect_done(render + "none --samples share:0/9", 1);  // fewer turns of the bins than shares
-    expect_done(render + "none --samples share:3/3", 1);
-    expect_done("render --size 8x8 --samples share:0/2", 1);
-}
-
-/// Bytes that the program took at most.
-std::int64_t most_memory(const std::string& arguments, const std::string& before = "") {
-    Running program(arguments, before);
-    rusage usage{};
-    EXPECT_EQ(program.wait(&usage), 0);
-    return usage.ru_maxrss * std::int64_t(1024);
-}
-
-TEST(RenderCommand, films_are_merged_in_memory_for_a_few_rows) {
-    const TemporaryFolder folder;
-    const std::string render = "render --size 1024x1024 --bins 2x2 --film " + (folder / "").string();
-    expect_done(render + "a --samples 0:4");
-    expect_done(render + "b --samples 4:8");
-    ASSERT_GT(fs::file_size(folder / "a"), 150u << 20);
-    const std::string before = "cd '" + (folder / "").string() + "';";
-    EXPECT_LT(most_memory("merge a b -o m -q", before) - most_memory("--version"), 32 << 20);
-    EXPECT_EQ(load_film(folder / "m").samples[0], 8u);
-}
-
-TEST(RenderCommand, many_nodes_take_little_more_memory_than_what_is_kept_of_them) {
-    const TemporaryFolder folder;
-    GltfBuilder b;
-    b.triangle();
-    const auto rendered = [&](std::size_t count, double& kept) {
-        json nodes = json::array(), roots = json::array();
-        for (std::size_t i = 0; i < count; ++i) {
-            nodes.push_back({{"mesh", 0}, {"translation", {2 * (i % 1000), 2 * (i / 1000), 0}}});
-            roots.push_back(i);
-        }
-        b.document["nodes"] = std::move(nodes);
-        b.document["scenes"][0]["nodes"] = std::move(roots);
-        b.load();
-        const std::string report = (folder / "report.json").string();
-        const std::int64_t most =
-            most_memory("render '" + (b.folder / "scene.gltf").string() +
-                        "' --size 32x32 --spp 1 -q --json " + report + " -o " + (folder / "a.png").string());
-        const json row = json::parse(bytes_of(report))["rows"][0];
-        kept = row["scene_bytes"].get<double>() + row["device_bytes"].get<double>();
-        return double(most);
-    };
-    double few_kept = 0, many_kept = 0;
-    rendered(1, few_kept);  // compiles
-    const double few = rendered(1, few_kept), many = rendered(400'000, many_kept);
-    EXPECT_GT(many_kept - few_kept, 100e6);
-    EXPECT_LT((many - few) / (many_kept - few_kept), 1.5);
-}
-
-TEST(RenderCommand, what_is_too_large_for_the_memory_is_said_before_it_is_taken) {
-    const Outcome film =
-        run_triad("render --max-memory 200M --size 3000x3000 --spp 1 -o /tmp/triad-none.png");
-    EXPECT_EQ(film.exit, 4) << film.output;
-    EXPECT_NE(film.output.find("The film of 9000000 pixels needs"), std::string::npos) << film.output;
-    EXPECT_EQ(run_triad("render --max-memory 2G --size 30x30 --spp 1 -q -o /tmp/triad-none.png").exit, 0);
-    fs::remove("/tmp/triad-none.png");
-}
 
 TEST(RenderCommand, json_tells_the_phases_and_how_it_ended) {
     const TemporaryFolder folder;

@@ -11,8 +11,8 @@ set(unit_sanitized "-${unit_unsuited}:${unit_sums}")
 set(unit_sanitized_rest "${unit_sums}")
 # Of `image` the host's own work: the command line, films, resuming, merging, captures, faults of devices. Left out are long
 # renders, which are kernels' time, and limits of address space and of memory, of which sanitizers take much.
-set(image_of_host "RenderCommand.*:Scenes.*:ResumeCommand.*:ReconstructCommand.*:Frames.*:ImageLightCommand.*")
-set(image_sanitized "${image_of_host}-RenderCommand.films_are_merged_in_memory*:RenderCommand.many_nodes_take_little*")
-set(image_sanitized_rest "-${image_of_host}:ShellLimits.*")
+set(image_of_host "RenderCommand.*:MergeCommand.*:MemoryUse.what*:Scenes.*:ResumeCommand.*:ReconstructCommand.*:Frames.*:ImageLightCommand.*")
+set(image_sanitized "${image_of_host}")
+set(image_sanitized_rest "-${image_of_host}:MemoryUse.*:ShellLimits.*")
 set(device_sanitized "*")
 set(fuzz_sanitized "*")
