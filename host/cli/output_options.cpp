@@ -63,16 +63,17 @@ void declare_style(CLI::App& command, OutputStyle& style) {
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
 }
 
-void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs, bool for_panel) {
+void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs,
+                  const std::function<bool()>& is_display_linear) {
     const auto any = [&](const auto& is_such) {
         return std::ranges::any_of(outputs,
                                    [&](const std::string& path) { return is_such(picture_extension(path)); });
     };
-    const bool toned = style.automatic_exposure || style.exposure != 0 || style.tone_map != "khronos";
-    if (toned && !for_panel && !any([](const std::string& e) { return !is_linear_format(e); }))
+    const bool toned = style.automatic_exposure || style.exposure != 0 || style.tone_map != "khronos",
+               holds_radiance = !any([](const std::string&e) { return !is_linear_format(e); });
+    if (toned && holds_radiance && (outputs.empty() || !is_display_linear()))
         warn(
-            "--exposure and --tonemap change nothing here: they are for .png and .jpg, and .exr and .hdr "
-            "hold "
+            "--exposure and --tonemap change nothing here: .png and .jpg have tones, .exr and .hdr "
             "radiance.");
     if (style.bits != 8 && !any([](const std::string& e) { return e == ".png"; }))
         warn("--bits changes nothing here: it is for .png.");

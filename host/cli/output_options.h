@@ -1,6 +1,9 @@
 #pragma once
 /// How pictures are written, for `triad render` and `triad resolve`.
 #include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "session/output.h"
 
@@ -8,9 +11,10 @@ namespace triad {
 
 /// Declares --exposure, --tonemap, --bits and --half.
 void declare_style(CLI::App& command, OutputStyle& style);
-/// Warns of what is asked of files of a kind that is not among `outputs`. `for_panel`: what EXR files hold is
-/// what a display shows.
-void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs, bool for_panel);
+/// Warns of what is asked of files of a kind that is not among `outputs`. `is_display_linear`: whether EXR
+/// files hold what a display shows (Reconstruction); asked only where that matters.
+void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs,
+                  const std::function<bool()>& is_display_linear);
 /// --background of what is rendered already.
 void declare_background(CLI::App& command, OutputStyle& style);
 

@@ -214,7 +214,7 @@ Exit render(const CLI::App& command, RenderRequest request, const std::vector<st
         request.outputs.empty() && request.film_path.empty() && request.resume_path.empty();
     if (!request.pixel)
         warn_of_idle(request.style, by_default ? std::vector<std::string>{default_output} : request.outputs,
-                     !request.reconstruct.panel.empty());
+                     [&] { return request.reconstruct.make().display_linear(); });
     OpenDevices devices;
     if (scenes.size() > 1)
         return for_each_scene(command, request, scenes,

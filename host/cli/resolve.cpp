@@ -22,15 +22,17 @@ struct ResolveOptions {
     bool toned = false;  ///< --exposure or --tonemap was given
 };
 
-void tell_of_background(const ResolveOptions& o, bool alpha) {
+/// Of what changes nothing.
+void warn_of_idle(const ResolveOptions& o, bool alpha) {
+    warn_of_idle(o.style, o.outputs, [&] { return o.style.reconstruction.display_linear(); });
     if (o.style.background && !alpha)
         warn("--background changes nothing here: nothing in " + o.source + " is transparent.");
 }
 
 void resolve_film(ResolveOptions& o) {
     const Film film = load_film(o.source);
-    tell_of_background(o, has_alpha(film));
     o.style.reconstruction = reconstruction_for(film, o.source, o.reconstruct);
+    warn_of_idle(o, has_alpha(film));
     check_format_for(o.style.reconstruction, o.outputs);
     Device device = Device::open({.selector = o.device});
     Metadata metadata = metadata_of(film);
@@ -58,19 +60,18 @@ void resolve_image(ResolveOptions& o) {
     o.style.reconstruction = reconstruction_for_pictures(o.reconstruct);
     check_format_for(o.style.reconstruction, o.outputs);
     const Reconstruction& method = o.style.reconstruction;
+    const bool alpha = picture.find("A") != nullptr;
+    warn_of_idle(o, alpha);
     const BinImage image = bins_of(picture, o.source, method);
     Device device = Device::open({.selector = o.device});
     Metadata metadata = {{"triad:version", TRIAD_VERSION}, {"Software", "triad " TRIAD_VERSION}};
     describe(method, metadata);
-    const bool alpha = picture.find("A") != nullptr;
-    tell_of_background(o, alpha);
     write_outputs(o.outputs, device, image, alpha, o.style, metadata);
 }
 
 Exit run(ResolveOptions o) {
     for (const std::string& path : o.outputs) check_format(path);
     check_outputs(o.outputs, {o.source, o.reconstruct.panel});
-    warn_of_idle(o.style, o.outputs, !o.reconstruct.panel.empty());
     if (is_film(o.source))
         resolve_film(o);
     else

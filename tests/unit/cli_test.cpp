@@ -144,12 +144,15 @@ TEST(CommandLine, options_that_change_nothing_are_told) {
     expect(to + ".exr --exposure auto", 5, tones, no_driver);
     expect(to + ".hdr --tonemap aces", 5, tones, no_driver);
     expect("render --film /tmp/triad-cli-test --exposure 1", 5, tones, no_driver);
+    expect(to + ".exr --filter box --exposure 1", 5, tones, no_driver);
     expect(to + ".jpg --bits 16", 5, "--bits changes nothing here: it is for .png.", no_driver);
     expect(to + ".png --half", 5, "--half changes nothing here: it is for .exr.", no_driver);
-    for (const std::string& useful : {to + ".exr -o /tmp/triad-cli-test.png --exposure 1 --bits 16 --half",
-                                      to + ".exr --panel rgb --exposure 1", to + ".JPG --tonemap aces",
-                                      std::string("render --size 8x8 --exposure 1 --bits 16"),
-                                      std::string("render --size 8x8 -o - --bits 16")}) {
+    for (const std::string& useful :
+         {to + ".exr -o /tmp/triad-cli-test.png --exposure 1 --bits 16 --half",
+          to + ".exr --panel rgb --exposure 1", to + ".exr --reconstruct pane:2 --exposure 1",
+          to + ".hdr --reconstruct subpixel3 --tonemap aces", to + ".JPG --tonemap aces",
+          std::string("render --size 8x8 --exposure 1 --bits 16"),
+          std::string("render --size 8x8 -o - --bits 16")}) {
         const Outcome outcome = run_triad(useful, no_driver);
         EXPECT_EQ(outcome.exit, 5) << useful;
         EXPECT_EQ(outcome.output.find("nothing here"), std::string::npos) << useful << outcome.output;
