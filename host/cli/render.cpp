@@ -208,13 +208,20 @@ Exit render_frames(const CLI::App& command, const RenderRequest& all) {
     return Exit::done;
 }
 
-Exit render(const CLI::App& command, RenderRequest request, const std::vector<std::string>& scenes) {
-    request.words = words_of_picture(command);
+/// Of what changes nothing, as far as the request alone tells.
+void warn_of_idle(const RenderRequest& request) {
     const bool by_default =
         request.outputs.empty() && request.film_path.empty() && request.resume_path.empty();
     if (!request.pixel)
         warn_of_idle(request.style, by_default ? std::vector<std::string>{default_output} : request.outputs,
                      [&] { return request.reconstruct.make().display_linear(); });
+    if (request.focus && !(request.aperture.value_or(0) > 0))
+        warn("--focus changes nothing without --aperture: all is sharp.");
+}
+
+Exit render(const CLI::App& command, RenderRequest request, const std::vector<std::string>& scenes) {
+    request.words = words_of_picture(command);
+    warn_of_idle(request);
     OpenDevices devices;
     if (scenes.size() > 1)
         return for_each_scene(command, request, scenes,

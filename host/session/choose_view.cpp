@@ -67,8 +67,6 @@ View choose_view(const RenderRequest& options, const Scene& scene, const SceneCa
     }
     if (options.aperture) view.lens_radius = *options.aperture;
     if (options.focus) view.focus_distance = *options.focus;
-    if (options.focus && view.lens_radius == 0)
-        warn("--focus has no effect without --aperture: all is sharp.");
     return view;
 }
 
