@@ -63,18 +63,16 @@ void declare_style(CLI::App& command, OutputStyle& style) {
     command.add_flag("--half", style.half, "16-bit EXR instead of 32-bit")->group(output_group);
 }
 
-void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs,
-                  const std::function<bool()>& is_display_linear) {
+void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs) {
+    if (outputs.empty()) return;
     const auto any = [&](const auto& is_such) {
         return std::ranges::any_of(outputs,
                                    [&](const std::string& path) { return is_such(picture_extension(path)); });
     };
     const bool toned = style.automatic_exposure || style.exposure != 0 || style.tone_map != "khronos",
-               holds_radiance = !any([](const std::string&e) { return !is_linear_format(e); });
-    if (toned && holds_radiance && (outputs.empty() || !is_display_linear()))
-        warn(
-            "--exposure and --tonemap change nothing here: .png and .jpg have tones, .exr and .hdr "
-            "radiance.");
+               shown = style.reconstruction.display_linear() ||
+                       any([](const std::string&e) { return !is_linear_format(e); });
+    if (toned && !shown) warn("--exposure and --tonemap change nothing here: .exr and .hdr hold radiance.");
     if (style.bits != 8 && !any([](const std::string& e) { return e == ".png"; }))
         warn("--bits changes nothing here: it is for .png.");
     if (style.half && !any([](const std::string& e) { return e == ".exr"; }))

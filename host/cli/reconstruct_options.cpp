@@ -33,12 +33,11 @@ void declare(CLI::App& command, ReconstructRequest& o) {
         "box, tent, gaussian, mitchell, catmull-rom, lanczos or blackman-harris, and its width in pixels",
         [&o](const std::string& v) { o.filter = parse_filter(v); })
         ->group(group);
-    CLI::Option* panel =
-        command
-            .add_option("--panel", o.panel,
-                        "Make the picture for this display, and no other: see triad panel (default: for any)")
-            ->type_name("NAME|FILE.json")
-            ->group(group);
+    command
+        .add_option("--panel", o.panel,
+                    "Make the picture for this display, and no other: see triad panel (default: for any)")
+        ->type_name("NAME|FILE.json")
+        ->group(group);
     CLI::Option* ppd =
         command
             .add_option("--ppd", o.ppd,
@@ -60,7 +59,6 @@ void declare(CLI::App& command, ReconstructRequest& o) {
     command
         .add_option("--refine", o.refine_steps, "Steps of triad's bounded refinement (default 5; 0: none)")
         ->check(whole_number_within(0, 1000))
-        ->needs(panel)
         ->type_name("N")
         ->group(group);
 }

@@ -71,6 +71,18 @@ void tell_darkness(const Film& film, const OutputStyle& style) {
            "--look studio or --env FILE lights the scene.");
 }
 
+/// Of what was asked for and changes nothing.
+void warn_of_idle(const RenderRequest& asked, const Renderer& renderer) {
+    warn_of_idle(asked.style, asked.outputs);
+    if (asked.focus && !(asked.aperture.value_or(0) > 0))
+        warn("--focus changes nothing without --aperture: all is sharp.");
+    if (asked.integrator == Integrator::automatic && renderer.photons() == 0 &&
+        (asked.photons > 0 || asked.photon_radius > 0 || !asked.aim_photons))
+        warn(
+            "--photons, --photon-radius and --photon-aim change nothing here: paths bring all light "
+            "(--integrator photons takes photons).");
+}
+
 /// What was made ready, and how.
 void describe(RenderSession& session) {
     const Renderer& renderer = session.renderer();
@@ -82,12 +94,6 @@ void describe(RenderSession& session) {
                   bytes_text(renderer.device_bytes()).c_str()));
     const bool told = session.request().integrator == Integrator::automatic && renderer.photons() > 0;
     (told ? inform : detail)("Integrator: " + renderer.integrator());
-    const RenderRequest& asked = session.request();
-    if (asked.integrator == Integrator::automatic && renderer.photons() == 0 &&
-        (asked.photons > 0 || asked.photon_radius > 0 || !asked.aim_photons))
-        warn(
-            "--photons, --photon-radius and --photon-aim change nothing here: paths bring all light "
-            "(--integrator photons takes photons).");
     detail("Not needed by this scene and left out: " + (left_out_text.empty() ? "nothing" : left_out_text));
 }
 
@@ -108,6 +114,7 @@ Exit run(const RenderRequest& request, OpenDevices& devices, const std::string& 
          ProgressDisplay& display) {
     RenderSession session(request, &devices);
     describe(session);
+    warn_of_idle(session.request(), session.renderer());
     if (session.request().pixel) {
         tell_pixel(session);
         return Exit::done;
@@ -208,20 +215,8 @@ Exit render_frames(const CLI::App& command, const RenderRequest& all) {
     return Exit::done;
 }
 
-/// Of what changes nothing, as far as the request alone tells.
-void warn_of_idle(const RenderRequest& request) {
-    const bool by_default =
-        request.outputs.empty() && request.film_path.empty() && request.resume_path.empty();
-    if (!request.pixel)
-        warn_of_idle(request.style, by_default ? std::vector<std::string>{default_output} : request.outputs,
-                     [&] { return request.reconstruct.make().display_linear(); });
-    if (request.focus && !(request.aperture.value_or(0) > 0))
-        warn("--focus changes nothing without --aperture: all is sharp.");
-}
-
 Exit render(const CLI::App& command, RenderRequest request, const std::vector<std::string>& scenes) {
     request.words = words_of_picture(command);
-    warn_of_idle(request);
     OpenDevices devices;
     if (scenes.size() > 1)
         return for_each_scene(command, request, scenes,

@@ -24,7 +24,7 @@ struct ResolveOptions {
 
 /// Of what changes nothing.
 void warn_of_idle(const ResolveOptions& o, bool alpha) {
-    warn_of_idle(o.style, o.outputs, [&] { return o.style.reconstruction.display_linear(); });
+    warn_of_idle(o.style, o.outputs);
     if (o.style.background && !alpha)
         warn("--background changes nothing here: nothing in " + o.source + " is transparent.");
 }

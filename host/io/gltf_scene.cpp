@@ -28,13 +28,12 @@ class SceneBuilder {
           choice_(choice),
           nodes_(file, pose_at(file, choose_animation(file, choice.animation), choice.time)),
           materials_(file, scene_),
-          meshes_(file, scene_, materials_, find_variant(file, choice.variant)) {
-        if (choice.time != 0 && file.model.animations.empty())
-            file.warn("The file has no animation: --pose-time and --frames change nothing.");
-    }
+          meshes_(file, scene_, materials_, find_variant(file, choice.variant)) {}
 
     Scene build() {
         const auto& scenes = file_.model.scenes;
+        if (choice_.time != 0 && choose_animation(file_, choice_.animation) < 0)
+            file_.warn("No animation moves the scene: --pose-time and --frames change nothing.");
         if (choice_.scene >= int(scenes.size()))
             throw Error(Exit::scene, "Scene " + std::to_string(choice_.scene) +
                                          " was asked for, but the file has " + std::to_string(scenes.size()) +

@@ -19,10 +19,11 @@ constexpr double weights[3] = {4.0, 1.0, 0.5};
 /// Samples go where noise is if the error then falls so many times as steeply: what is foreseen from few
 /// samples is more than what comes.
 constexpr double worth_it = 1.3;
-/// Points of a sequence lie best at powers of two. At every one of them the error is less than samples alone
-/// would make it by this power of two: of .12 to .25 that were measured, the least.
+/// Points of a sequence lie best at powers of two: with n samples, of which P is the greatest, the error
+/// falls as n^-1 P^-placement. Measured from 32 to 64: .12 to .25.
 constexpr double placement = 0.125;
-/// Even samples may go on to a power of two that lies within this factor.
+/// Even samples are judged by a power of two within this factor of the end of the round: the next may go on
+/// to it.
 constexpr double in_reach = 1.15;
 
 struct Tiles {
@@ -104,10 +105,11 @@ class Planner {
     /// Of even samples, which gain most where they come to a power of two.
     double steepness_everywhere(const SetSamples& samples) const {
         const double to_samples = steepness(samples, 1);
-        const std::uint32_t most = *std::ranges::max_element(samples),
-                            power = step_ << power_below(most) << 1;
-        return power > in_reach * mean_ ? to_samples
-                                        : std::max(to_samples, steepness(SetSamples(have_.size(), power), 1));
+        const std::uint32_t power = step_ * std::bit_ceil(std::uint32_t(std::ceil(mean_ / step_)));
+        if (power > in_reach * mean_) return to_samples;
+        SetSamples further = have_;
+        for (std::uint32_t& n : further) n = std::max(n, power);
+        return std::max(to_samples, steepness(further, 1));
     }
 
   private:
@@ -152,13 +154,16 @@ class Planner {
     SetSamples rounded(const std::vector<double>& wanted, bool by_noise) const {
         SetSamples result = have_;
         for (std::size_t colour = 0; colour < 2; ++colour) {
+            std::size_t last = colour;
+            for (std::size_t i = colour; i < have_.size(); i += 2)
+                if (pixels_[i] > 0) last = i;
             double carry = 0;  // what rounding leaves over goes on to the next set, and in steps to the last
             for (std::size_t i = colour; i < have_.size(); i += 2) {
                 if (pixels_[i] == 0) continue;
                 carry += pixels_[i] * (wanted[i] - have_[i]);
                 const double fit = have_[i] + carry / pixels_[i];
                 std::uint32_t& samples = result[i];
-                if (by_noise && i + 2 < have_.size())
+                if (by_noise && i != last)
                     samples = well_placed(have_[i], fit, step_);
                 else
                     samples +=

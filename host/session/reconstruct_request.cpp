@@ -4,10 +4,11 @@
 #include "session/panel_file.h"
 
 namespace triad {
-namespace {}  // namespace
-
 Reconstruction ReconstructRequest::make(std::optional<uvec2> film_bins) const {
-    ReconstructionChoice choice{method, filter, bins ? bins : film_bins, {}, refine_steps};
+    ReconstructionChoice choice{method, filter, bins ? bins : film_bins};
+    if (panel.empty() && refine_steps)
+        throw Error(Exit::usage, "--refine is for a display: name it with --panel.");
+    choice.refine_steps = refine_steps.value_or(choice.refine_steps);
     if (panel.empty() && (ppd || distance))
         throw Error(Exit::usage, "--ppd and --distance say how a display is seen: name it with --panel.");
     if (distance && !pitch)

@@ -13,7 +13,7 @@ struct ReconstructRequest {
     std::optional<uvec2> bins;
     std::optional<PixelFilter> filter;
     std::optional<double> ppd, distance, pitch;
-    unsigned refine_steps = 5;
+    std::optional<unsigned> refine_steps;
 
     /// Whether anything was asked for beyond bins.
     bool asked() const { return !method.empty() || !panel.empty() || filter.has_value(); }

@@ -58,20 +58,6 @@ TEST(LookCommand, a_model_without_light_stands_in_a_studio_on_a_ground) {
     expect_exit(1, render + none + " --orbit 10,20 --look-at 0,0,5,0,0,0");
 }
 
-TEST(LookCommand, what_changes_nothing_in_this_scene_is_told) {
-    const TemporaryFolder folder;
-    write_scene(folder / "a.gltf");
-    const std::string render =
-        "render " + (folder / "a.gltf").string() + " --size 16x12 --spp 2 -o " + (folder / "a.png").string();
-    expect_exit(0, render + " --pose-time 2", "The file has no animation: --pose-time");
-    expect_exit(0, render + " --frames 0:2", "The file has no animation: --pose-time and --frames");
-    expect_exit(0, render + " --focus 2", "--focus changes nothing without --aperture");
-    expect_exit(0, render + " --photons 100", "change nothing here: paths bring all light");
-    const Outcome useful = run_triad(render + " --aperture .1 --focus 2 --integrator photons --photons 100");
-    EXPECT_EQ(useful.exit, 0);
-    EXPECT_EQ(useful.output.find("nothing"), std::string::npos) << useful.output;
-}
-
 TEST(LookCommand, a_weak_lamp_gets_a_sentence_with_the_remedy) {
     const TemporaryFolder folder;
     write_scene(folder / "weak.gltf", "0.01"), write_scene(folder / "strong.gltf", "60");

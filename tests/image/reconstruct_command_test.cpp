@@ -93,23 +93,6 @@ TEST(ReconstructCommand, rays_by_a_filter_are_resolved_by_their_method_alone) {
     done("resolve " + film + " --reconstruct random3 --panel rgb" + out);
 }
 
-TEST(ReconstructCommand, a_colour_behind_what_is_opaque_is_told) {
-    const TemporaryFolder folder;
-    const std::string film = (folder / "a.film").string(), png = (folder / "a.png").string();
-    const auto is_told = [&](const std::string& source) {
-        const std::string out = (folder / "b.png").string();
-        return done("resolve " + source + " -o " + out + " --background '#4080c0'")
-                   .output.find("nothing in " + source + " is transparent") != std::string::npos;
-    };
-    done("render --size 8x8 --spp 1 -o " + png + " --film " + film);
-    EXPECT_TRUE(is_told(film));
-    EXPECT_TRUE(is_told(png));
-    std::filesystem::remove(film);
-    done("render --size 8x8 --spp 1 --background transparent -o " + png + " --film " + film);
-    EXPECT_FALSE(is_told(film));
-    EXPECT_FALSE(is_told(png));
-}
-
 TEST(ReconstructCommand, any_larger_picture_is_filtered_for_a_panel) {
     const TemporaryFolder folder;
     const auto path = [&](const char* name) { return (folder / name).string(); };

@@ -182,6 +182,7 @@ TEST(Adaptive, even_samples_go_on_to_a_power_of_two_where_noise_promises_little_
     EXPECT_TRUE(by_noise(64, 80));
     EXPECT_TRUE(by_noise(96, 108));
     EXPECT_FALSE(by_noise(96, 120)) << "from where 128 is near";
+    EXPECT_FALSE(by_noise(96, 127)) << "where some sets come to it by rounding";
     EXPECT_FALSE(by_noise(96, 128));
     EXPECT_TRUE(by_noise(128, 160));
 }

@@ -136,30 +136,6 @@ TEST(CommandLine, no_driver_is_a_device_error) {
     expect("devices", 5, "OpenCL", "OCL_ICD_VENDORS=/no/such/folder");
 }
 
-TEST(CommandLine, options_that_change_nothing_are_told) {
-    const std::string no_driver = "OCL_ICD_VENDORS=/no/such/folder",
-                      to = "render --size 8x8 -o /tmp/triad-cli-test";
-    const std::string tones = "--exposure and --tonemap change nothing here";
-    expect(to + ".exr --exposure 1", 5, tones, no_driver);
-    expect(to + ".exr --exposure auto", 5, tones, no_driver);
-    expect(to + ".hdr --tonemap aces", 5, tones, no_driver);
-    expect("render --film /tmp/triad-cli-test --exposure 1", 5, tones, no_driver);
-    expect(to + ".exr --filter box --exposure 1", 5, tones, no_driver);
-    expect(to + ".jpg --bits 16", 5, "--bits changes nothing here: it is for .png.", no_driver);
-    expect(to + ".png --half", 5, "--half changes nothing here: it is for .exr.", no_driver);
-    for (const std::string& useful :
-         {to + ".exr -o /tmp/triad-cli-test.png --exposure 1 --bits 16 --half",
-          to + ".exr --panel rgb --exposure 1", to + ".exr --reconstruct pane:2 --exposure 1",
-          to + ".hdr --reconstruct subpixel3 --tonemap aces", to + ".JPG --tonemap aces",
-          std::string("render --size 8x8 --exposure 1 --bits 16"),
-          std::string("render --size 8x8 -o - --bits 16")}) {
-        const Outcome outcome = run_triad(useful, no_driver);
-        EXPECT_EQ(outcome.exit, 5) << useful;
-        EXPECT_EQ(outcome.output.find("nothing here"), std::string::npos) << useful << outcome.output;
-    }
-    expect("render --refine 3", 1, "--panel");
-}
-
 TEST(CommandLine, the_list_of_cases_asks_no_device) {
     expect("check --list", 0, "M1 sin and cos", "OCL_ICD_VENDORS=/no/such/folder");
     expect("check --list --json -", 1, "--list prints the cases and checks nothing: leave --json out");
@@ -205,6 +181,7 @@ TEST(CommandLine, reconstruction_that_makes_no_sense_is_refused) {
     expect("render --filter box:0", 1, "above 0");
     expect("render --panel no-such-panel", 1, "no-such-panel");
     expect("render --ppd 45", 1, "--panel");
+    expect("render --refine 3", 1, "--panel");
     expect("render --panel rgb --distance 600", 1, "--pitch");
     expect("render --panel rgb --bins 17x17", 1, "16x16");
     expect("render --bins 3x3 --samples 0:10", 1, "multiples of 9");
