@@ -1,11 +1,12 @@
 #pragma once
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <string>
 
 /// The built program in the background, whose standard error is read as it comes.
@@ -39,10 +40,23 @@ class Running {
     }
     void interrupt() { send(SIGINT); }
     void send(int signal) { ::kill(child_, signal); }
-    int wait(rusage* usage = nullptr) {
+    int wait() {
         int status = 0;
-        ::wait4(child_, &status, 0, usage);
+        ::waitpid(child_, &status, 0);
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;  // -1: ended by a signal
+    }
+    /// Waits as well, and finds the bytes that the program held at most. Not by wait4(), which begins with
+    /// what this process held when it forked.
+    int wait(std::int64_t& most_memory) {
+        const std::string status = "/proc/" + std::to_string(child_) + "/status";
+        siginfo_t ended{};
+        while (::waitid(P_PID, id_t(child_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0) {
+            std::ifstream file(status);
+            for (std::string line; std::getline(file, line);)
+                if (line.starts_with("VmHWM:")) most_memory = std::stoll(line.substr(6)) * 1024;
+            ::usleep(1000);
+        }
+        return wait();
     }
     const std::string& said() const { return said_; }
 

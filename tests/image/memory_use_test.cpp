@@ -1,6 +1,5 @@
 // How much memory commands take, and what they say where that would be too much.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -23,9 +22,9 @@ namespace {
 /// Bytes that the program took at most.
 std::int64_t most_memory(const std::string& arguments, const std::string& before = "") {
     Running program(arguments, before);
-    rusage usage{};
-    EXPECT_EQ(program.wait(&usage), 0);
-    return usage.ru_maxrss * std::int64_t(1024);
+    std::int64_t most = 0;
+    EXPECT_EQ(program.wait(most), 0);
+    return most;
 }
 
 }  // namespace
@@ -66,7 +65,8 @@ TEST(MemoryUse, many_nodes_take_little_more_memory_than_what_is_kept_of_them) {
     rendered(1, few_kept), rendered(400'000, many_kept);  // compile
     const double few = rendered(1, few_kept), many = rendered(400'000, many_kept);
     EXPECT_GT(many_kept - few_kept, 100e6);
-    EXPECT_LT((many - few) / (many_kept - few_kept), 1.5);
+    EXPECT_GT(few, 1e7);
+    EXPECT_LT((many - few) / (many_kept - few_kept), 1.5) << many << " and " << few;
 }
 
 TEST(MemoryUse, what_is_too_large_for_the_memory_is_said_before_it_is_taken) {
