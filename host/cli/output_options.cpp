@@ -65,14 +65,15 @@ void declare_style(CLI::App& command, OutputStyle& style) {
 
 void warn_of_idle(const OutputStyle& style, const std::vector<std::string>& outputs) {
     if (outputs.empty()) return;
-    const auto any = [&](const auto& is_such) {
+    const auto any = [&](bool (*is_such)(const std::string& extension)) {
         return std::ranges::any_of(outputs,
                                    [&](const std::string& path) { return is_such(picture_extension(path)); });
     };
-    const bool toned = style.automatic_exposure || style.exposure != 0 || style.tone_map != "khronos",
-               shown = style.reconstruction.display_linear() ||
-                       any([](const std::string&e) { return !is_linear_format(e); });
-    if (toned && !shown) warn("--exposure and --tonemap change nothing here: .exr and .hdr hold radiance.");
+    const bool toned = style.automatic_exposure || style.exposure != 0 || style.tone_map != "khronos";
+    const bool all_linear = std::ranges::all_of(
+        outputs, [](const std::string& path) { return is_linear_format(picture_extension(path)); });
+    if (toned && all_linear && !style.reconstruction.display_linear())
+        warn("--exposure and --tonemap change nothing here: .exr and .hdr hold radiance.");
     if (style.bits != 8 && !any([](const std::string& e) { return e == ".png"; }))
         warn("--bits changes nothing here: it is for .png.");
     if (style.half && !any([](const std::string& e) { return e == ".exr"; }))
